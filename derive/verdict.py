@@ -1,0 +1,39 @@
+"""What the check of one printed equation found."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+import sympy as sp
+
+
+class Outcome(StrEnum):
+    EQUAL = "equal"
+    SCALED = "equal after scaling"
+    DIFFERS = "differs"
+    MISSING = "missing in the text"
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """The verdict on one printed equation against one derivation.
+
+    `factor` is what the derived equation is multiplied by to become the printed one. The unmatched
+    terms are LaTeX; each correction is one edit of the printed equation that makes it equal.
+    """
+
+    number: str  # as printed, e.g. "21"
+    model: str  # the derivation it was checked against, e.g. "pure_shear_as_printed"
+    quantity: str  # what the equation gives, e.g. "equation_of_motion_1"
+    outcome: Outcome
+    factor: sp.Expr = sp.S.One
+    derived_unmatched: tuple[str, ...] = ()
+    printed_unmatched: tuple[str, ...] = ()
+    corrections: tuple[str, ...] = ()
+    unit_faults: tuple[str, ...] = ()
+    note: str = ""
+
+    @property
+    def agrees(self) -> bool:
+        return self.outcome in (Outcome.EQUAL, Outcome.SCALED)
