@@ -14,24 +14,14 @@ import jinja2.meta
 import sympy as sp
 
 from .kernel import Assignment, KernelFunction, KernelSpec
-from .printer import ExpressionPrinter
-from .symbols import Quantity, quantity_of
+from .printer import PAPER_TEXT, ExpressionPrinter
+from .symbols import Quantity
 from .verdict import Outcome, Verdict
 
 _WIDTH = 110
 _TEMPLATE = "numpy_module.py.jinja"
 
 _NUMPY = ExpressionPrinter(lambda symbol: symbol.name, {sp.log: "np.log", sp.exp: "np.exp"})
-_SUPERSCRIPTS = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
-
-
-def _raised(base: str, exponent: int) -> str:
-    return base + str(exponent).translate(_SUPERSCRIPTS)
-
-
-_TEXT = ExpressionPrinter(
-    lambda symbol: quantity_of(symbol).text, {sp.log: "ln", sp.exp: "exp"}, times=" ", power=_raised
-)
 
 
 def _folded(text: str, indent: str) -> list[str]:
@@ -129,13 +119,13 @@ def _function_view(function: KernelFunction, spec: KernelSpec) -> dict[str, Any]
 
 
 def _equation_lines(left: sp.Expr, right: sp.Expr) -> list[str]:
-    return _broken(f"{_TEXT(left)} = ", right, _TEXT, "    ")
+    return _broken(f"{PAPER_TEXT(left)} = ", right, PAPER_TEXT, "    ")
 
 
 def _verdict_line(verdict: Verdict) -> str:
     text = f"Eq. ({verdict.number}): {verdict.outcome}"
     if verdict.outcome is Outcome.SCALED:
-        text += f" of the derived one by {_TEXT(verdict.factor)}"
+        text += f" of the derived one by {PAPER_TEXT(verdict.factor)}"
     return text
 
 

@@ -11,6 +11,8 @@ from dataclasses import dataclass
 
 import sympy as sp
 
+from .symbols import quantity_of
+
 _SUM, _PRODUCT, _POWER, _ATOM = range(4)  # binding strength
 
 
@@ -105,3 +107,16 @@ def _fraction(expression: sp.Mul) -> tuple[list[sp.Expr], list[sp.Expr]]:
         else:
             above.append(factor)
     return above, below
+
+
+_SUPERSCRIPTS = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
+def _raised(base: str, exponent: int) -> str:
+    return base + str(exponent).translate(_SUPERSCRIPTS)
+
+
+# Formulas for people, in the notation of the paper: 8 H L² μ^α / 3
+PAPER_TEXT = ExpressionPrinter(
+    lambda symbol: quantity_of(symbol).text, {sp.log: "ln", sp.exp: "exp"}, times=" ", power=_raised
+)

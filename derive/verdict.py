@@ -19,8 +19,10 @@ class Outcome(StrEnum):
 class Verdict:
     """The verdict on one printed equation against one derivation.
 
-    `factor` is what the derived equation is multiplied by to become the printed one. The unmatched
-    terms are LaTeX; each correction is one edit of the printed equation that makes it equal.
+    `factor` is what the derived equation is multiplied by to become the printed one. Derived terms
+    are text in the notation of the paper, printed ones LaTeX; each correction is one edit of the
+    printed equation that makes it equal. `derived` is the derived right side where the text lost
+    the printed one.
     """
 
     number: str  # as printed, e.g. "21"
@@ -32,6 +34,7 @@ class Verdict:
     printed_unmatched: tuple[str, ...] = ()
     corrections: tuple[str, ...] = ()
     unit_faults: tuple[str, ...] = ()
+    derived: str = ""
     note: str = ""
 
     @property

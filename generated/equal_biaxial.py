@@ -25,7 +25,10 @@ Governing equations, in the notation of Sheng et al. (2015), J. Appl. Phys., doi
 
 Checked against the equations printed there:
 
-
+    Eq. (7): equal
+    Eq. (8): equal
+    Eq. (9): equal after scaling of the derived one by 3 λ_EB⁶ / (16 H L² ρ (2 H² + L² λ_EB⁶))
+    Eq. (10): equal
 
 Provenance: digest of the governing equations 29e06058664142c4, SymPy 1.14.0.
 

@@ -32,7 +32,12 @@ Governing equations, in the notation of Sheng et al. (2015), J. Appl. Phys., doi
 
 Checked against the equations printed there:
 
-
+    Eq. (17): equal
+    Eq. (18): equal
+    Eq. (19): equal after scaling of the derived one by λ_2p / (4 H L)
+    Eq. (20): equal
+    Eq. (21): differs
+    Eq. (22): missing in the text
 
 Provenance: digest of the governing equations aba303a6d8b0ff39, SymPy 1.14.0.
 

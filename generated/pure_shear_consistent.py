@@ -38,7 +38,12 @@ Governing equations, in the notation of Sheng et al. (2015), J. Appl. Phys., doi
 
 Checked against the equations printed there:
 
-
+    Eq. (17): equal
+    Eq. (18): equal
+    Eq. (19): differs
+    Eq. (20): differs
+    Eq. (21): differs
+    Eq. (22): missing in the text
 
 Provenance: digest of the governing equations 32a0eb6f0fc450ec, SymPy 1.14.0.
 

@@ -38,7 +38,12 @@ Governing equations, in the notation of Sheng et al. (2015), J. Appl. Phys., doi
 
 Checked against the equations printed there:
 
-
+    Eq. (11): equal
+    Eq. (12): equal
+    Eq. (13): equal
+    Eq. (14): equal
+    Eq. (15): differs
+    Eq. (16): differs
 
 Provenance: digest of the governing equations 8ab1095c322086a2, SymPy 1.14.0.
 

@@ -1,0 +1,54 @@
+"""Verdicts as a table for people."""
+
+from __future__ import annotations
+
+import textwrap
+
+from .printer import PAPER_TEXT
+from .verdict import Outcome, Verdict
+
+HEADINGS = ("Eq.", "states", "derivation", "verdict", "detail")
+
+
+def detail(verdict: Verdict) -> str:
+    """What a person needs to know beyond the verdict, in one paragraph."""
+    parts = []
+    if verdict.outcome is Outcome.SCALED:
+        parts.append(f"printed = derived x {PAPER_TEXT(verdict.factor)}")
+    if verdict.derived:
+        parts.append(f"derived: {verdict.derived}")
+    if verdict.derived_unmatched:
+        parts.append(f"derived, without partner: {' | '.join(verdict.derived_unmatched)}")
+    if verdict.printed_unmatched:
+        parts.append(f"printed, without partner: {' | '.join(verdict.printed_unmatched)}")
+    if verdict.corrections:
+        parts.append(f"one edit mends it: {verdict.corrections[0]}")
+    if verdict.unit_faults:
+        parts.append(f"units: {' | '.join(verdict.unit_faults)}")
+    if verdict.note:
+        parts.append(verdict.note)
+    return ". ".join(parts)
+
+
+def rows(verdicts: tuple[Verdict, ...]) -> tuple[tuple[str, ...], ...]:
+    """One row a verdict, in the order of `HEADINGS`."""
+    return tuple(
+        (f"({v.number})", v.quantity.replace("_", " "), v.model, str(v.outcome), detail(v)) for v in verdicts
+    )
+
+
+def as_text(verdicts: tuple[Verdict, ...], width: int = 110) -> str:
+    """A plain table; the detail of each row stands folded below it."""
+    table = rows(verdicts)
+    columns = [max(len(row[k]) for row in (HEADINGS, *table)) for k in range(4)]
+    lines = ["  ".join(heading.ljust(size) for heading, size in zip(HEADINGS[:4], columns, strict=True)).rstrip()]
+    lines.append("  ".join("-" * size for size in columns))
+    for row in table:
+        lines.append("  ".join(cell.ljust(size) for cell, size in zip(row[:4], columns, strict=True)).rstrip())
+        lines.extend(textwrap.wrap(row[4], width, initial_indent="      ", subsequent_indent="      "))
+    return "\n".join(lines)
+
+
+def summary(verdicts: tuple[Verdict, ...]) -> str:
+    counts = [(outcome, sum(v.outcome is outcome for v in verdicts)) for outcome in Outcome]
+    return ", ".join(f"{count} {outcome}" for outcome, count in counts if count)
