@@ -7,7 +7,7 @@ precision settles the matter; one that is zero there has to be proved zero.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Mapping
 from dataclasses import dataclass
 from random import Random
 
@@ -16,10 +16,11 @@ import sympy as sp
 
 from .derived_equations import DerivedEquation
 from .printed_tree import Equation
-from .printed_values import evaluate, to_sympy
+from .printed_values import evaluate, evaluate_roughly, to_sympy
 
 _DIGITS = 50
 _ZERO = mpmath.mpf(10) ** -35  # relative to the size of the terms
+_ROUGHLY_ZERO = 1e-6
 _POINTS = 3
 _SEED = 20150225
 
@@ -36,17 +37,23 @@ class UnprovedEqualityError(RuntimeError):
     """Zero at random points in high precision, yet not proved: a case for a person."""
 
 
+Point = Mapping[sp.Symbol, mpmath.mpf]
+
+
 @dataclass(frozen=True)
 class Witness:
-    """A derived equation ready for comparison: its residual as a function of numbers, and random points."""
+    """A derived equation with its values at random points, ready for comparison with printed ones.
+
+    At each point the residual is `constants + slopes * unknown`.
+    """
 
     derived: DerivedEquation
-    symbols: tuple[sp.Symbol, ...]
-    residual: Callable[..., mpmath.mpf]
-    points: tuple[dict[sp.Symbol, mpmath.mpf], ...]
+    points: tuple[Point, ...]
+    constants: tuple[mpmath.mpf, ...]
+    slopes: tuple[mpmath.mpf, ...]
 
 
-def _random_point(symbols: tuple[sp.Symbol, ...], random: Random) -> dict[sp.Symbol, mpmath.mpf]:
+def _random_point(symbols: tuple[sp.Symbol, ...], random: Random) -> Point:
     """Values of order one, all different, negative ones too where a symbol allows them."""
     point = {}
     for symbol in symbols:
@@ -56,39 +63,35 @@ def _random_point(symbols: tuple[sp.Symbol, ...], random: Random) -> dict[sp.Sym
 
 
 def witness(derived: DerivedEquation, known: tuple[sp.Symbol, ...]) -> Witness:
-    """Prepare a derived equation; `known` are all symbols that a printed equation may use."""
-    symbols = tuple(sorted(derived.residual.free_symbols, key=str))
-    random = Random(_SEED)
+    """Evaluate a derived equation; `known` are all symbols that a printed equation may use."""
+    random, unknown = Random(_SEED), derived.unknown.symbol
+    symbols = tuple(sorted({*known, *derived.residual.free_symbols}, key=str))
+    residual = sp.lambdify(symbols, derived.residual, "mpmath")
+    slope = sp.lambdify(symbols, derived.residual.diff(unknown), "mpmath")
     with mpmath.workdps(_DIGITS):
-        points = tuple(_random_point(tuple(sorted({*known, *symbols}, key=str)), random) for _ in range(_POINTS))
-    return Witness(derived, symbols, sp.lambdify(symbols, derived.residual, "mpmath"), points)
+        points = tuple(_random_point(symbols, random) for _ in range(_POINTS))
+        constants = tuple(residual(*({**point, unknown: mpmath.mpf(0)}[s] for s in symbols)) for point in points)
+        slopes = tuple(slope(*(point[s] for s in symbols)) for point in points)
+    return Witness(derived, points, constants, slopes)
 
 
-def _line(function: Callable, point: dict, unknown: sp.Symbol) -> tuple[mpmath.mpf, mpmath.mpf, mpmath.mpf]:
-    """Value with the unknown at 0, slope, and by how much the function bends away from that line."""
-    at_zero = function({**point, unknown: mpmath.mpf(0)})
-    slope = function({**point, unknown: mpmath.mpf(1)}) - at_zero
-    return at_zero, slope, function(point) - at_zero - slope * point[unknown]
+def _printed_at(tree: Equation, point: Point) -> mpmath.mpf:
+    return evaluate(tree.lhs, point) - evaluate(tree.rhs, point)
 
 
-def _agrees_at(tree: Equation, subject: Witness, point: dict[sp.Symbol, mpmath.mpf]) -> bool:
-    unknown = subject.derived.unknown.symbol
-
-    def printed_residual(values: dict) -> mpmath.mpf:
-        return evaluate(tree.lhs, values) - evaluate(tree.rhs, values)
-
-    def derived_residual(values: dict) -> mpmath.mpf:
-        return subject.residual(*(values[symbol] for symbol in subject.symbols))
-
+def _agrees_at(tree: Equation, unknown: sp.Symbol, point: Point, constant: mpmath.mpf, slope: mpmath.mpf) -> bool:
+    """Whether the printed residual is, at one point, the same multiple of constant and slope, and straight."""
     try:
-        printed, printed_slope, bend = _line(printed_residual, point, unknown)
+        printed = _printed_at(tree, {**point, unknown: mpmath.mpf(0)})
+        printed_slope = _printed_at(tree, {**point, unknown: mpmath.mpf(1)}) - printed
+        left, right = printed * slope, constant * printed_slope
+        size = abs(left) + abs(right) + abs(printed_slope * slope)
+        if abs(printed_slope) < _ZERO or abs(left - right) > _ZERO * size:
+            return False
+        bend = _printed_at(tree, point) - printed - printed_slope * point[unknown]
     except ZeroDivisionError:
         return False
-    derived, derived_slope, _ = _line(derived_residual, point, unknown)
-    left, right = printed * derived_slope, derived * printed_slope
-    if abs(printed_slope) < _ZERO or abs(bend) > _ZERO * (abs(printed) + abs(printed_slope)):
-        return False
-    return abs(left - right) <= _ZERO * (abs(left) + abs(right) + abs(printed_slope * derived_slope))
+    return abs(bend) <= _ZERO * (abs(printed) + abs(printed_slope))
 
 
 def agrees_numerically(tree: Equation, subject: Witness) -> bool:
@@ -96,8 +99,29 @@ def agrees_numerically(tree: Equation, subject: Witness) -> bool:
 
     The printed side is evaluated from its tree, without SymPy.
     """
+    unknown = subject.derived.unknown.symbol
     with mpmath.workdps(_DIGITS):
-        return all(_agrees_at(tree, subject, point) for point in subject.points)
+        return all(
+            _agrees_at(tree, unknown, point, constant, slope)
+            for point, constant, slope in zip(subject.points, subject.constants, subject.slopes, strict=True)
+        )
+
+
+def may_agree(tree: Equation, subject: Witness) -> bool:
+    """Whether double precision at one point leaves room for agreement: a quick sieve, never a verdict."""
+    unknown, point = subject.derived.unknown.symbol, {symbol: float(v) for symbol, v in subject.points[0].items()}
+
+    def printed(value: float) -> float:
+        at = {**point, unknown: value}
+        return evaluate_roughly(tree.lhs, at) - evaluate_roughly(tree.rhs, at)
+
+    try:
+        constant = printed(0.0)
+        left = constant * float(subject.slopes[0])
+        right = float(subject.constants[0]) * (printed(1.0) - constant)
+    except (ArithmeticError, ValueError):
+        return True
+    return bool(abs(left - right) <= _ROUGHLY_ZERO * (abs(left) + abs(right)))
 
 
 def printed_residual(tree: Equation) -> sp.Expr:

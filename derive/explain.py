@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import sympy as sp
 
-from .compare import Witness, agrees_numerically, compare
+from .compare import Witness, compare, may_agree
 from .derived_equations import DerivedEquation
 from .edits import single_edits
 from .latex_tokens import Span
@@ -81,7 +81,7 @@ def corrections(tree: Equation, subject: Witness) -> tuple[str, ...]:
     return tuple(
         f"{edit.kind}: {edit.before} -> {edit.after}"
         for edit in single_edits(tree, wide=True)
-        if agrees_numerically(edit.equation, subject) and compare(edit.equation, subject).equal
+        if may_agree(edit.equation, subject) and compare(edit.equation, subject).equal
     )
 
 

@@ -129,21 +129,17 @@ class _Reader:
 
     def tag(self) -> None:
         self.advance()
-        label = label_at(self.tokens, self.at)
-        if label != self.source.number:
-            raise self.error(f"{{{self.source.number}}}")
-        self.at = script_end(self.source, self.tokens, self.at)
+        end = script_end(self.source, self.tokens, self.at)
+        if label_at(self.tokens, self.at) != self.source.number:
+            raise self.source.error(whole(self.tokens, self.at, end), f"{{{self.source.number}}}")
+        self.at = end
 
     # Sums and products
 
     def sum(self) -> Node:
-        self.depth += 1
-        if self.depth > _DEEPEST:
-            raise self.error(f"no more than {_DEEPEST} levels of brackets")
         terms = [self.term()]
         while self.token.text in _SIGNS:
             terms.append(self.term())
-        self.depth -= 1
         return sum_of(tuple(terms))
 
     def term(self) -> Term:
@@ -171,6 +167,14 @@ class _Reader:
     # Factors
 
     def factor(self) -> Node:
+        self.depth += 1
+        if self.depth > _DEEPEST:
+            raise self.error(f"no more than {_DEEPEST} levels of brackets")
+        node = self.factor_here()
+        self.depth -= 1
+        return node
+
+    def factor_here(self) -> Node:
         token = self.token
         if token.kind == "letter" or token.text in GREEK or token.text in DOTS:
             return self.symbol()

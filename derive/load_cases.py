@@ -95,7 +95,7 @@ def _pure_shear(name: str, title: str, formulation: str, *, lateral_dashpot_free
 
 _HELD_DASHPOT = (
     "The inelastic stretch along the held axis is itself held at the held stretch, as in the paper; Eq. (6) would "
-    "give it a rate, which this model ignores, so that the power into the dashpot can be negative."
+    "give it a rate, which this model ignores."
 )
 
 PURE_SHEAR_CONSISTENT = _pure_shear(

@@ -86,5 +86,3 @@ def _base(base: Node) -> str:
 
 def _bracketed(node: Node) -> Group:
     return node if isinstance(node, Group) else Group("(", node, node.span)
-
-

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from types import MappingProxyType
 
 import mpmath
@@ -54,6 +56,24 @@ def to_sympy(node: Node) -> sp.Expr:
         case Function(name, argument):
             return _SYMPY_FUNCTIONS[name](to_sympy(argument))
     raise TypeError(f"{type(node).__name__} is not a node of a printed tree")
+_MATH_FUNCTIONS: Mapping[str, Callable[[float], float]] = MappingProxyType(
+    {
+        "sqrt": math.sqrt, "ln": math.log, "exp": math.exp, "sin": math.sin, "cos": math.cos, "tan": math.tan,
+        "sinh": math.sinh, "cosh": math.cosh, "tanh": math.tanh,
+    }
+)  # fmt: skip
+
+
+@dataclass(frozen=True)
+class _Arithmetic:
+    """What numbers are made of."""
+
+    number: Callable[[int], mpmath.mpf | float]
+    functions: Mapping[str, Callable]
+
+
+_HIGH_PRECISION = _Arithmetic(mpmath.mpf, _MPMATH_FUNCTIONS)
+_DOUBLE_PRECISION = _Arithmetic(float, _MATH_FUNCTIONS)
 
 
 def evaluate(node: Node, values: Mapping[sp.Symbol, mpmath.mpf]) -> mpmath.mpf:
@@ -62,23 +82,32 @@ def evaluate(node: Node, values: Mapping[sp.Symbol, mpmath.mpf]) -> mpmath.mpf:
     Raises:
         ValueError: a symbol has no value.
     """
+    return _value(node, values, _HIGH_PRECISION)
+
+
+def evaluate_roughly(node: Node, values: Mapping[sp.Symbol, float]) -> float:
+    """The same in double precision, for sorting out many trees quickly; raises as `evaluate`."""
+    return _value(node, values, _DOUBLE_PRECISION)
+
+
+def _value(node: Node, values: Mapping, arithmetic: _Arithmetic) -> mpmath.mpf | float:
     match node:
         case Number(value):
-            return mpmath.mpf(value.numerator) / value.denominator
+            return arithmetic.number(value.numerator) / value.denominator
         case Variable(quantity):
             if quantity.symbol not in values:
-                raise ValueError(f"symbol {quantity.symbol} [{quantity.unit}] has no value; give a number")
-            return mpmath.mpf(values[quantity.symbol])
+                raise ValueError(f"symbol {quantity.symbol} [{quantity.unit}] has no value; a number is needed")
+            return values[quantity.symbol]
         case Sum(terms):
-            return mpmath.fsum(term.sign * evaluate(term.node, values) for term in terms)
+            return sum(term.sign * _value(term.node, values, arithmetic) for term in terms)
         case Product(factors):
-            return mpmath.fprod(evaluate(factor, values) for factor in factors)
+            return math.prod(_value(factor, values, arithmetic) for factor in factors)
         case Quotient(numerator, denominator):
-            return evaluate(numerator, values) / evaluate(denominator, values)
+            return _value(numerator, values, arithmetic) / _value(denominator, values, arithmetic)
         case Power(base, exponent):
-            return mpmath.power(evaluate(base, values), evaluate(exponent, values))
+            return _value(base, values, arithmetic) ** _value(exponent, values, arithmetic)
         case Group(inner=inner):
-            return evaluate(inner, values)
+            return _value(inner, values, arithmetic)
         case Function(name, argument):
-            return _MPMATH_FUNCTIONS[name](evaluate(argument, values))
+            return arithmetic.functions[name](_value(argument, values, arithmetic))
     raise TypeError(f"{type(node).__name__} is not a node of a printed tree")

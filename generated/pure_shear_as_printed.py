@@ -9,7 +9,7 @@ The paper puts the reaction of the frame, Eq. (19), into the potential before th
 workless constraint does not allow that step: it triples two terms and turns the sign of the electric one.
 This module is for reproducing the paper; use pure_shear_consistent for mechanics. The inelastic stretch along
 the held axis is itself held at the held stretch, as in the paper; Eq. (6) would give it a rate, which this
-model ignores, so that the power into the dashpot can be negative.
+model ignores.
 
 Governing equations, in the notation of Sheng et al. (2015), J. Appl. Phys., doi:10.1063/1.4913384:
 

@@ -7,7 +7,7 @@ A square membrane of sides 2 L and thickness 2 H in the reference state; SI unit
 
 The frame that holds axis 2 does no work: its force is an output, not part of the potential. The inelastic
 stretch along the held axis is itself held at the held stretch, as in the paper; Eq. (6) would give it a rate,
-which this model ignores, so that the power into the dashpot can be negative.
+which this model ignores.
 
 Governing equations, in the notation of Sheng et al. (2015), J. Appl. Phys., doi:10.1063/1.4913384:
 

@@ -224,7 +224,9 @@ SHENG_2015 = Paper(
         _printed("20", "potential_energy", "pure_shear"),
         _printed("21", "equation_of_motion_1", "pure_shear"),
         _printed(
-            "22", "dashpot_rate_1", "pure_shear",
+            "22",
+            "dashpot_rate_1",
+            "pure_shear",
             'the text ends at "can be simplified by Eqs. (5) and (6) as"',
         ),
     ),

@@ -1,0 +1,55 @@
+# Two commands do all the set-up that they need: `make reproduce` and `make test`.
+PYTHON ?= python3
+VENV ?= .venv
+OUT ?= out
+BIN := $(VENV)/bin
+PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --constraint constraints.txt
+
+.PHONY: help reproduce test test-slow derive check-generated figures lint clean
+
+help:
+	@echo "make reproduce        derive, check, emit, integrate, draw; the table of printed and computed numbers"
+	@echo "make test             all fast tests, lint and the check of the generated modules"
+	@echo "make derive           derive the equations, check the printed ones, write generated/"
+	@echo "make check-generated  regenerate aside and compare byte for byte"
+	@echo "make figures          Figs. 4-12 as PNG and PDF with their data, in $(OUT)/figures"
+	@echo "make test-slow        the tests that take minutes"
+
+$(VENV)/.python:
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
+	  { echo "Python 3.11 or later is needed; $(PYTHON) is older. Try: make PYTHON=python3.12 ..."; exit 1; }
+	$(PYTHON) -m venv $(VENV)
+	@touch $@
+
+$(VENV)/.installed: $(VENV)/.python pyproject.toml constraints.txt
+	$(PIP) --editable .
+	@touch $@
+
+$(VENV)/.tested: $(VENV)/.installed
+	$(PIP) --editable '.[test]'
+	@touch $@
+
+reproduce: $(VENV)/.installed
+	$(BIN)/delagrange reproduce --out $(OUT)
+
+figures: $(VENV)/.installed
+	$(BIN)/delagrange figures --out $(OUT)/figures
+
+derive: $(VENV)/.installed
+	$(BIN)/python -m delagrange.derive
+
+check-generated: $(VENV)/.installed
+	$(BIN)/python -m delagrange.derive --check
+
+test: $(VENV)/.tested lint check-generated
+	$(BIN)/python -m pytest --numprocesses auto
+
+test-slow: $(VENV)/.tested
+	$(BIN)/python -m pytest --numprocesses auto -m slow
+
+lint: $(VENV)/.tested
+	$(BIN)/ruff check .
+	$(BIN)/lint-imports
+
+clean:
+	rm -rf $(VENV) $(OUT) build *.egg-info src/*.egg-info

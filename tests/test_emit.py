@@ -1,0 +1,239 @@
+"""Generated modules: regeneration, numbers against lambdify, laws, form, and that they stand alone."""
+
+from __future__ import annotations
+
+import ast
+import hashlib
+import os
+import subprocess
+import sys
+from dataclasses import replace
+from importlib import import_module, resources
+from pathlib import Path
+
+import numpy as np
+import pytest
+from conftest import PAPER_VALUES
+from hypothesis import given
+from hypothesis import strategies as st
+
+from delagrange.derive import emit as emit_module
+from delagrange.derive.emit import emit
+from delagrange.derive.kernel import kernel
+from delagrange.derive.lambdified import lambdified
+from delagrange.derive.load_cases import EMITTED
+
+NAMES = tuple(case.name for case in EMITTED)
+FUNCTIONS = (
+    "rhs", "jacobian", "mass_matrix", "kinetic_energy", "potential_energy", "force_power", "dashpot_power",
+    "principal_stretches",
+)  # fmt: skip
+
+
+def module_of(name):
+    return import_module(f"delagrange.generated.{name}")
+
+
+def parameters_of(module, held_stretch=2.0):
+    return (*PAPER_VALUES, held_stretch)[: len(module.PARAMETERS)]
+
+
+def random_state(module, rng, shape=()):
+    values = [rng.uniform(-300, 300, shape) if v.unit == "1/s" else rng.uniform(0.6, 2.5, shape) for v in module.STATE]
+    return np.array(values)
+
+
+def random_inputs(rng, shape=()):
+    return np.array([rng.uniform(-0.5, 1.0, shape), rng.uniform(-6e6, 6e6, shape)])
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_agrees_with_lambdify_at_random_states(name, equations, rng):
+    module, witness = module_of(name), lambdified(equations(name))
+    functions = (*FUNCTIONS, *(("reaction_forces",) if module.REACTIONS else ()))
+    for _ in range(100):
+        state, inputs = random_state(module, rng), random_inputs(rng)
+        parameters = parameters_of(module, rng.uniform(0.8, 4.0))
+        for function in functions:
+            ours = getattr(module, function)(state, inputs, parameters)
+            theirs = np.asarray(getattr(witness, function)(state, inputs, parameters), dtype=float)
+            scale = np.max(np.abs(theirs)) if function in ("jacobian", "rhs") else np.abs(theirs)
+            assert np.all(np.abs(ours - theirs) <= 1e-12 * np.maximum(scale, np.abs(theirs)) + 1e-300), (function, ours, theirs)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_jacobian_is_the_complex_step_derivative(name, rng):
+    module, step = module_of(name), 1e-200
+    for _ in range(20):
+        state, inputs, parameters = random_state(module, rng), random_inputs(rng), parameters_of(module)
+        columns = [module.rhs(state + 1j * step * unit, inputs, parameters).imag / step for unit in np.eye(len(state))]
+        found = module.jacobian(state, inputs, parameters)
+        scale = np.abs(found).max(axis=1, keepdims=True)
+        assert np.all(np.abs(found - np.transpose(columns)) <= 1e-12 * scale)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_broadcasts_over_any_trailing_shape(name, rng):
+    module, shape = module_of(name), (3, 4)
+    state, inputs = random_state(module, rng, shape), random_inputs(rng, shape)
+    parameters = parameters_of(module)
+    for function in FUNCTIONS:
+        whole = getattr(module, function)(state, inputs, parameters)
+        one = getattr(module, function)(state[:, 1, 2], inputs[:, 1, 2], parameters)
+        assert whole.shape == np.shape(one) + shape
+        np.testing.assert_array_equal(whole[..., 1, 2], one)
+
+
+def test_inputs_and_parameters_broadcast_against_the_state():
+    module = module_of("equal_biaxial")
+    state = module.reference_state(PAPER_VALUES)
+    forces = np.linspace(0.0, 1.0, 5)[:, None]
+    densities = np.array([1e3, 1.2e3])
+    parameters = (*PAPER_VALUES[:2], densities, *PAPER_VALUES[3:])
+    assert module.rhs(state, (forces, 0.0), parameters).shape == (3, 5, 2)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_the_reference_state_is_at_rest_without_load(name):
+    module = module_of(name)
+    held = 1.0  # any other held stretch loads the membrane
+    parameters = parameters_of(module, held)
+    state = module.reference_state(parameters)
+    assert np.max(np.abs(module.rhs(state, (0.0, 0.0), parameters))) < 1e-9 or name == "pure_shear_as_printed"
+
+
+def test_the_printed_pure_shear_is_not_at_rest_even_unloaded():
+    """Tripled terms: the undeformed, unloaded membrane accelerates."""
+    module = module_of("pure_shear_as_printed")
+    parameters = parameters_of(module, 1.0)
+    assert module.rhs(module.reference_state(parameters), (0.0, 0.0), parameters)[1] > 1e6
+
+
+stretches = st.floats(0.6, 2.5)
+
+
+@given(a=stretches, b=stretches, xa=stretches, xb=stretches, va=st.floats(-300, 300), vb=st.floats(-300, 300), field=st.floats(0, 6e6))
+def test_uniaxial_without_force_is_symmetric_in_its_axes(a, b, xa, xb, va, vb, field):
+    module = module_of("uniaxial")
+    swap = [1, 0, 3, 2, 5, 4]
+    state = np.array([a, b, va, vb, xa, xb])
+    left = module.rhs(state, (0.0, field), PAPER_VALUES)[swap]
+    right = module.rhs(state[swap], (0.0, field), PAPER_VALUES)
+    np.testing.assert_allclose(left, right, rtol=1e-10, atol=1e-10 * np.max(np.abs(right)))
+
+
+@given(stretch=stretches, xi=stretches, rate=st.floats(-300, 300), field=st.floats(0, 6e6))
+def test_unforced_uniaxial_on_the_diagonal_is_equal_biaxial(stretch, xi, rate, field):
+    uniaxial, equal = module_of("uniaxial"), module_of("equal_biaxial")
+    found = uniaxial.rhs((stretch, stretch, rate, rate, xi, xi), (0.0, field), PAPER_VALUES)[::2]
+    expected = equal.rhs((stretch, rate, xi), (0.0, field), PAPER_VALUES)
+    np.testing.assert_allclose(found, expected, rtol=1e-9, atol=1e-9 * np.max(np.abs(expected)))
+
+
+@given(stretch=stretches, field=st.floats(-6e6, 6e6))
+def test_the_field_enters_squared(stretch, field):
+    module = module_of("equal_biaxial")
+    state = (stretch, 1.0, 1.1)
+    np.testing.assert_array_equal(
+        module.rhs(state, (0.1, field), PAPER_VALUES), module.rhs(state, (0.1, -field), PAPER_VALUES)
+    )
+
+
+# --- the text ----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_imports_numpy_only(name):
+    source = resources.files("delagrange.generated").joinpath(f"{name}.py").read_text(encoding="utf-8")
+    imported = set()
+    for node in ast.walk(ast.parse(source)):
+        if isinstance(node, ast.Import):
+            imported |= {alias.name for alias in node.names}
+        if isinstance(node, ast.ImportFrom):
+            imported.add(node.module)
+    assert imported == {"numpy", "typing"}
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_copy_outside_the_package_still_works(name, tmp_path):
+    source = resources.files("delagrange.generated").joinpath(f"{name}.py")
+    (tmp_path / "copied.py").write_bytes(source.read_bytes())
+    values = parameters_of(module_of(name))
+    code = f"import copied; s = copied.reference_state({values}); print(copied.rhs(s, (0.1, 1e6), {values}).shape)"
+    done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == f"({len(module_of(name).STATE)},)"
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_the_docstring_says_what_the_module_is(name):
+    module = module_of(name)
+    text = module.__doc__
+    assert "do not edit" in text and "Provenance: digest" in text and "SymPy" in text
+    assert "T = " in text and "Π = " in text and "Checked against the equations printed there" in text
+    assert all(variable.unit and variable.meaning for variable in (*module.STATE, *module.INPUTS, *module.PARAMETERS))
+    for line in text.splitlines():
+        assert len(line) <= 112
+
+
+def test_no_line_is_too_long_and_no_name_is_unused():
+    for name in NAMES:
+        path = Path(str(resources.files("delagrange.generated").joinpath(f"{name}.py")))
+        assert max(len(line) for line in path.read_text(encoding="utf-8").splitlines()) <= 120
+        subprocess.run(
+            [sys.executable, "-m", "ruff", "check", "--isolated", "--select", "F,E7,E9", str(path)], check=True
+        )
+
+
+def test_the_same_text_under_any_hash_seed():
+    """Derivation, common subexpressions and text of the largest model and of the one with a reaction."""
+    code = (
+        "import hashlib; from delagrange.derive import pipeline as p; from delagrange.derive.kernel import kernel;"
+        "from delagrange.derive.emit import emit; from delagrange.derive.load_cases import UNIAXIAL, PURE_SHEAR_CONSISTENT as C;"
+        "m = p.paper_membrane();"
+        "print(*(hashlib.sha256(emit(kernel(p.derive(m, c), ())).encode()).hexdigest() for c in (UNIAXIAL, C)))"
+    )
+    runs = [
+        subprocess.run(
+            [sys.executable, "-c", code], env={**os.environ, "PYTHONHASHSEED": seed}, capture_output=True, text=True, check=True
+        ).stdout
+        for seed in ("0", "1", "4711")
+    ]
+    assert runs[0] == runs[1] == runs[2]
+
+
+def test_the_template_and_its_view_must_fit(equations, monkeypatch):
+    spec = kernel(equations("equal_biaxial"), ())
+    view = emit_module._view
+    monkeypatch.setattr(emit_module, "_view", lambda spec: view(spec) | {"surplus": 1})
+    with pytest.raises(KeyError, match="surplus"):
+        emit(spec)
+
+
+def test_a_changed_equation_changes_the_digest(equations):
+    eom = equations("equal_biaxial")
+    changed = replace(eom, kinetic_energy=2 * eom.kinetic_energy)
+    assert kernel(eom, ()).digest != kernel(changed, ()).digest
+
+
+def test_checked_in_modules_are_what_the_derivation_emits(equations, tmp_path):
+    """The sum of all modules' bytes is that of a fresh emission; `make check-generated` names the stale one."""
+    from delagrange.derive import pipeline
+    from delagrange.derive.published.sheng_2015 import SHENG_2015
+    from delagrange.derive.verify import verify
+
+    eom = equations("uniaxial")
+    modules = (("uniaxial.py", emit(kernel(eom, verify(eom, SHENG_2015)))),)
+    folder = Path(str(resources.files("delagrange.generated")))
+    assert pipeline.stale(modules, folder) == ()
+    pipeline.write(modules, tmp_path)
+    assert hashlib.sha256((tmp_path / "uniaxial.py").read_bytes()).digest() == hashlib.sha256((folder / "uniaxial.py").read_bytes()).digest()
+    (tmp_path / "uniaxial.py").write_text("edited by hand")
+    assert pipeline.stale(modules, tmp_path) == ("uniaxial.py",)
+
+
+def test_an_output_folder_that_cannot_be_written_is_named(tmp_path):
+    from delagrange.derive import pipeline
+
+    (tmp_path / "file").write_text("")
+    with pytest.raises(ValueError, match=r"output folder .*file.* cannot be written"):
+        pipeline.write((("a.py", ""),), tmp_path / "file")
