@@ -18,8 +18,12 @@ from .report import as_text, summary
 def _options(arguments: list[str] | None) -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="python -m delagrange.derive", description=__doc__)
     parser.add_argument("--check", action="store_true", help="compare with what is checked in, write nothing")
-    parser.add_argument("--record", action="store_true", help="record the verdicts found as the expected ones")
-    parser.add_argument("--out", type=Path, default=_package("delagrange.generated"), help="folder of the modules")
+    parser.add_argument(
+        "--record", action="store_true", help="record the verdicts found as the expected ones"
+    )
+    parser.add_argument(
+        "--out", type=Path, default=_package("delagrange.generated"), help="folder of the modules"
+    )
     return parser.parse_args(arguments)
 
 
@@ -42,7 +46,10 @@ def main(arguments: list[str] | None = None) -> int:
     if options.check:
         old = pipeline.stale(walked.modules, options.out)
         for name in old:
-            print(f"stale: {options.out / name} is not what the derivation emits; run `make derive`", file=sys.stderr)
+            print(
+                f"stale: {options.out / name} is not what the derivation emits; run `make derive`",
+                file=sys.stderr,
+            )
         return 1 if departed or old else 0
     pipeline.write(walked.modules, options.out)
     print(f"{len(walked.modules)} modules in {options.out}")

@@ -70,7 +70,9 @@ def witness(derived: DerivedEquation, known: tuple[sp.Symbol, ...]) -> Witness:
     slope = sp.lambdify(symbols, derived.residual.diff(unknown), "mpmath")
     with mpmath.workdps(_DIGITS):
         points = tuple(_random_point(symbols, random) for _ in range(_POINTS))
-        constants = tuple(residual(*({**point, unknown: mpmath.mpf(0)}[s] for s in symbols)) for point in points)
+        constants = tuple(
+            residual(*({**point, unknown: mpmath.mpf(0)}[s] for s in symbols)) for point in points
+        )
         slopes = tuple(slope(*(point[s] for s in symbols)) for point in points)
     return Witness(derived, points, constants, slopes)
 
@@ -79,7 +81,9 @@ def _printed_at(tree: Equation, point: Point) -> mpmath.mpf:
     return evaluate(tree.lhs, point) - evaluate(tree.rhs, point)
 
 
-def _agrees_at(tree: Equation, unknown: sp.Symbol, point: Point, constant: mpmath.mpf, slope: mpmath.mpf) -> bool:
+def _agrees_at(
+    tree: Equation, unknown: sp.Symbol, point: Point, constant: mpmath.mpf, slope: mpmath.mpf
+) -> bool:
     """Whether the printed residual is, at one point, the same multiple of constant and slope, and straight."""
     try:
         printed = _printed_at(tree, {**point, unknown: mpmath.mpf(0)})
@@ -109,7 +113,10 @@ def agrees_numerically(tree: Equation, subject: Witness) -> bool:
 
 def may_agree(tree: Equation, subject: Witness) -> bool:
     """Whether double precision at one point leaves room for agreement: a quick sieve, never a verdict."""
-    unknown, point = subject.derived.unknown.symbol, {symbol: float(v) for symbol, v in subject.points[0].items()}
+    unknown, point = (
+        subject.derived.unknown.symbol,
+        {symbol: float(v) for symbol, v in subject.points[0].items()},
+    )
 
     def printed(value: float) -> float:
         at = {**point, unknown: value}
@@ -131,7 +138,9 @@ def printed_residual(tree: Equation) -> sp.Expr:
 def scaling(tree: Equation, derived: DerivedEquation) -> sp.Expr:
     """What the derived equation has to be multiplied by to become the printed one; 0 where nothing does."""
     unknown = derived.unknown.symbol
-    ratio = sp.factor(sp.cancel(sp.together(printed_residual(tree).diff(unknown) / derived.residual.diff(unknown))))
+    ratio = sp.factor(
+        sp.cancel(sp.together(printed_residual(tree).diff(unknown) / derived.residual.diff(unknown)))
+    )
     return sp.S.Zero if ratio.has(unknown) else ratio
 
 
@@ -150,4 +159,6 @@ def compare(tree: Equation, subject: Witness) -> Comparison:
         return Comparison(False, factor)
     if factor.is_nonzero and _is_zero(printed_residual(tree) - factor * subject.derived.residual):
         return Comparison(True, factor)
-    raise UnprovedEqualityError(f"Eq. ({tree.number}) agrees with {subject.derived.model} in numbers, without proof")
+    raise UnprovedEqualityError(
+        f"Eq. ({tree.number}) agrees with {subject.derived.model} in numbers, without proof"
+    )

@@ -23,7 +23,6 @@ class DerivedEquation:
     residual: sp.Expr
 
 
-
 def derived_equations(eom: EquationsOfMotion) -> Mapping[str, DerivedEquation]:
     """Every equation that one model gives, by the name of what it states."""
     load_case = eom.load_case
@@ -42,7 +41,8 @@ def derived_equations(eom: EquationsOfMotion) -> Mapping[str, DerivedEquation]:
     for reaction, force in zip(load_case.reactions, eom.reaction_forces, strict=True):
         stated["reaction_force"] = (reaction, reaction.symbol - force)
     return {
-        name: DerivedEquation(load_case.name, name, unknown, residual) for name, (unknown, residual) in stated.items()
+        name: DerivedEquation(load_case.name, name, unknown, residual)
+        for name, (unknown, residual) in stated.items()
     }
 
 

@@ -85,7 +85,12 @@ def _return_lines(function: KernelFunction) -> list[str]:
     line = f"    return _stack({function.shape!r}, {', '.join(outputs)})"
     if len(line) <= _WIDTH:
         return [line]
-    return ["    return _stack(", f"        {function.shape!r},", *(f"        {output}," for output in outputs), "    )"]
+    return [
+        "    return _stack(",
+        f"        {function.shape!r},",
+        *(f"        {output}," for output in outputs),
+        "    )",
+    ]
 
 
 def _acceleration_lines(function: KernelFunction, spec: KernelSpec) -> list[str]:
@@ -143,7 +148,9 @@ def _view(spec: KernelSpec) -> dict[str, Any]:
         "load_case": spec.load_case,
         "formulation": spec.formulation,
         "remark": textwrap.fill(spec.remark, _WIDTH),
-        "equations": "\n".join(line for left, right in spec.formulas for line in _equation_lines(left, right)),
+        "equations": "\n".join(
+            line for left, right in spec.formulas for line in _equation_lines(left, right)
+        ),
         "verdicts": "\n".join(
             textwrap.fill(_verdict_line(v), _WIDTH, initial_indent="    ", subsequent_indent="        ")
             for v in spec.verdicts

@@ -161,7 +161,10 @@ def _with_reaction_in_potential(
     energies: Energies, reactions: tuple[Quantity, ...], static: tuple[sp.Expr, ...], model: Membrane
 ) -> Energies:
     """Eq. (20): the static reaction inserted into the potential, each of its parts beside its like."""
-    arm = sum((energies.forces.diff(r.symbol) * value for r, value in zip(reactions, static, strict=True)), sp.S.Zero)
+    arm = sum(
+        (energies.forces.diff(r.symbol) * value for r, value in zip(reactions, static, strict=True)),
+        sp.S.Zero,
+    )
     alpha, beta = ({p.symbol for p in material.parameters} for material in model.materials)
     owners = {"spring_alpha": alpha, "spring_beta": beta, "electrostatic": {model.field.symbol}}
     shares = dict.fromkeys(owners, sp.S.Zero)
@@ -192,9 +195,15 @@ def internal_rates(model: Membrane, load_case: LoadCase, substitution: Substitut
     laws = [tidy(_constrain(rate, substitution)) for rate in model.dashpot_rates]
     rates = []
     for internal in load_case.internals:
-        own = [law for law, xi in zip(laws, load_case.inelastic_stretches, strict=True) if xi == internal.value.symbol]
+        own = [
+            law
+            for law, xi in zip(laws, load_case.inelastic_stretches, strict=True)
+            if xi == internal.value.symbol
+        ]
         if any(not _equal(own[0], other) for other in own[1:]):
-            raise ValueError(f"load case {load_case.name}: {internal.value.name} has two different dashpot rates")
+            raise ValueError(
+                f"load case {load_case.name}: {internal.value.name} has two different dashpot rates"
+            )
         rates.append(own[0])
     return tuple(rates)
 

@@ -50,7 +50,9 @@ def _opens(node: Node) -> bool:
 
 def _opened_factor(factors: tuple[Node, ...]) -> Node | None:
     """The bracketed sum that a reader would multiply out: the last one."""
-    return next((factor for factor in reversed(factors) if _opens(factor) and not isinstance(factor, Power)), None)
+    return next(
+        (factor for factor in reversed(factors) if _opens(factor) and not isinstance(factor, Power)), None
+    )
 
 
 def unmatched_terms(
@@ -83,5 +85,3 @@ def corrections(tree: Equation, subject: Witness) -> tuple[str, ...]:
         for edit in single_edits(tree, wide=True)
         if may_agree(edit.equation, subject) and compare(edit.equation, subject).equal
     )
-
-

@@ -19,7 +19,6 @@ from .shared import share_subexpressions
 from .symbols import Quantity
 from .verdict import Verdict
 
-
 _VOLUME = sp.Symbol("volume", positive=True)
 
 
@@ -72,7 +71,9 @@ class KernelSpec:
 
 def _named(expression: sp.Expr) -> sp.Expr:
     """Replace the symbols of the algebra by the names that code uses."""
-    names = {symbol: sp.Symbol(s.quantity_of(symbol).name) for symbol in expression.free_symbols if _known(symbol)}
+    names = {
+        symbol: sp.Symbol(s.quantity_of(symbol).name) for symbol in expression.free_symbols if _known(symbol)
+    }
     return expression.subs(names, simultaneous=True)
 
 
@@ -151,7 +152,11 @@ def _rhs(eom: EquationsOfMotion) -> KernelFunction:
     forces = tuple(Assignment(_entry("net_force", row, size=n), f) for row, f in enumerate(_net_force(eom)))
     acceleration = _solved(n, sp.Matrix([sp.Symbol(a.name) for a in forces]))
     solved = tuple(
-        Assignment(c.acceleration.name, acceleration[row], "mass matrix times acceleration = net force" if row == 0 else "")
+        Assignment(
+            c.acceleration.name,
+            acceleration[row],
+            "mass matrix times acceleration = net force" if row == 0 else "",
+        )
         for row, c in enumerate(load_case.coordinates)
     )
     rates = tuple(
@@ -166,7 +171,14 @@ def _rhs(eom: EquationsOfMotion) -> KernelFunction:
         "Time derivative of the state.",
         "the unit of each state per second",
         (len(moving),),
-        (*_mass_assignments(eom), *_determinant_assignment(n), *_force_assignments(eom), *forces, *solved, *rates),
+        (
+            *_mass_assignments(eom),
+            *_determinant_assignment(n),
+            *_force_assignments(eom),
+            *forces,
+            *solved,
+            *rates,
+        ),
         [quantity.symbol for quantity in moving],
     )
 
@@ -176,14 +188,19 @@ def _jacobian(eom: EquationsOfMotion) -> KernelFunction:
     n, size = eom.mass_matrix.rows, len(eom.state)
     unbalanced = eom.unbalanced_jacobian
     named = [
-        [sp.Symbol(f"force_slope_{row + 1}_{column + 1}") if unbalanced[row, column] != 0 else sp.S.Zero for column in range(size)]
+        [
+            sp.Symbol(f"force_slope_{row + 1}_{column + 1}") if unbalanced[row, column] != 0 else sp.S.Zero
+            for column in range(size)
+        ]
         for row in range(n)
     ]
     slopes = tuple(
         Assignment(
             f"force_slope_{row + 1}_{column + 1}",
             unbalanced[row, column],
-            "slope of (net force - mass matrix times acceleration) with respect to the state" if (row, column) == (0, 0) else "",
+            "slope of (net force - mass matrix times acceleration) with respect to the state"
+            if (row, column) == (0, 0)
+            else "",
         )
         for row in range(n)
         for column in range(size)
@@ -228,13 +245,15 @@ def _reactions(eom: EquationsOfMotion) -> tuple[KernelFunction, ...]:
     needed = {symbol for force in eom.reaction_forces for symbol in force.free_symbols}
     moving = any(c.acceleration.symbol in needed for c in eom.load_case.coordinates)
     assignments = tuple(
-        Assignment(reaction.name, force) for reaction, force in zip(reactions, eom.reaction_forces, strict=True)
+        Assignment(reaction.name, force)
+        for reaction, force in zip(reactions, eom.reaction_forces, strict=True)
     )
     return (
         _function(
             eom,
             "reaction_forces",
-            "Forces that hold the constrained axes" + ("." if moving else ", without inertia as in the paper."),
+            "Forces that hold the constrained axes"
+            + ("." if moving else ", without inertia as in the paper."),
             "N",
             (len(reactions),),
             assignments,
@@ -244,7 +263,9 @@ def _reactions(eom: EquationsOfMotion) -> tuple[KernelFunction, ...]:
     )
 
 
-def _scalar(eom: EquationsOfMotion, name: str, summary: str, unit: str, expression: sp.Expr) -> KernelFunction:
+def _scalar(
+    eom: EquationsOfMotion, name: str, summary: str, unit: str, expression: sp.Expr
+) -> KernelFunction:
     return _function(eom, name, summary, unit, (), (), [expression])
 
 
@@ -269,7 +290,8 @@ def _potential(eom: EquationsOfMotion) -> KernelFunction:
 
 def _pairs(pairs: tuple[tuple[str, sp.Expr], ...], comment: str) -> tuple[Assignment, ...]:
     return tuple(
-        Assignment(name, expression, comment if number == 0 else "") for number, (name, expression) in enumerate(pairs)
+        Assignment(name, expression, comment if number == 0 else "")
+        for number, (name, expression) in enumerate(pairs)
     )
 
 
@@ -298,7 +320,8 @@ def _function(
     common, expressions = share_subexpressions(in_powers, constants, frozenset(a.name for a in assignments))
     shared = _pairs(powers, "powers of the state") + _pairs(common, "shared by what follows")
     rewritten = tuple(
-        Assignment(a.name, expression, a.comment) for a, expression in zip(assignments, expressions, strict=False)
+        Assignment(a.name, expression, a.comment)
+        for a, expression in zip(assignments, expressions, strict=False)
     )
     return KernelFunction(
         name, summary, unit, shape,
@@ -313,7 +336,8 @@ def reference_state(eom: EquationsOfMotion) -> tuple[sp.Expr, ...]:
     held = dict(zip(load_case.inelastic_stretches, load_case.stretches, strict=True))
     coordinates = {c.value.symbol for c in load_case.coordinates}
     relaxed = [
-        sp.Integer(1) if held[i.value.symbol] in coordinates else held[i.value.symbol] for i in load_case.internals
+        sp.Integer(1) if held[i.value.symbol] in coordinates else held[i.value.symbol]
+        for i in load_case.internals
     ]
     n = len(load_case.coordinates)
     return tuple(_named(value) for value in (*[sp.Integer(1)] * n, *[sp.Integer(0)] * n, *relaxed))
@@ -334,7 +358,9 @@ def _formulas(eom: EquationsOfMotion) -> tuple[tuple[sp.Expr, sp.Expr], ...]:
 
 def _digest(formulas: tuple[tuple[sp.Expr, sp.Expr], ...]) -> str:
     """SHA-256 of the governing equations in canonical order, first 16 hexadecimal digits."""
-    text = "\n".join(f"{sp.sstr(left, order='lex')} = {sp.sstr(right, order='lex')}" for left, right in formulas)
+    text = "\n".join(
+        f"{sp.sstr(left, order='lex')} = {sp.sstr(right, order='lex')}" for left, right in formulas
+    )
     return hashlib.sha256(text.encode()).hexdigest()[:16]
 
 

@@ -74,7 +74,9 @@ BIAXIAL = LoadCase(
 )
 
 
-def _pure_shear(name: str, title: str, formulation: str, *, lateral_dashpot_free: bool, remark: str) -> LoadCase:
+def _pure_shear(
+    name: str, title: str, formulation: str, *, lateral_dashpot_free: bool, remark: str
+) -> LoadCase:
     lateral = s.INELASTIC_STRETCH_PS2.value.symbol if lateral_dashpot_free else s.HELD_STRETCH.symbol
     return LoadCase(
         name=name,

@@ -65,7 +65,8 @@ def time_derivative(expression: sp.Expr, moving: tuple[TimeDependent, ...]) -> s
     """Total time derivative by the chain rule, for expressions of values and rates."""
     return sum(
         (
-            expression.diff(m.value.symbol) * m.rate.symbol + expression.diff(m.rate.symbol) * m.acceleration.symbol
+            expression.diff(m.value.symbol) * m.rate.symbol
+            + expression.diff(m.rate.symbol) * m.acceleration.symbol
             for m in moving
         ),
         sp.Integer(0),

@@ -56,6 +56,8 @@ def to_sympy(node: Node) -> sp.Expr:
         case Function(name, argument):
             return _SYMPY_FUNCTIONS[name](to_sympy(argument))
     raise TypeError(f"{type(node).__name__} is not a node of a printed tree")
+
+
 _MATH_FUNCTIONS: Mapping[str, Callable[[float], float]] = MappingProxyType(
     {
         "sqrt": math.sqrt, "ln": math.log, "exp": math.exp, "sin": math.sin, "cos": math.cos, "tan": math.tan,
@@ -96,7 +98,9 @@ def _value(node: Node, values: Mapping, arithmetic: _Arithmetic) -> mpmath.mpf |
             return arithmetic.number(value.numerator) / value.denominator
         case Variable(quantity):
             if quantity.symbol not in values:
-                raise ValueError(f"symbol {quantity.symbol} [{quantity.unit}] has no value; a number is needed")
+                raise ValueError(
+                    f"symbol {quantity.symbol} [{quantity.unit}] has no value; a number is needed"
+                )
             return values[quantity.symbol]
         case Sum(terms):
             return sum(term.sign * _value(term.node, values, arithmetic) for term in terms)

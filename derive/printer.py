@@ -72,7 +72,9 @@ class ExpressionPrinter:
         if expression.could_extract_minus_sign() and expression.as_coeff_Mul()[0].is_negative:
             return f"-{self._wrapped(-expression, _PRODUCT)}", _SUM
         above, below = _fraction(expression)
-        over = self.times.join(self._wrapped(factor, _PRODUCT if number == 0 else _POWER) for number, factor in enumerate(above))
+        over = self.times.join(
+            self._wrapped(factor, _PRODUCT if number == 0 else _POWER) for number, factor in enumerate(above)
+        )
         if not below:
             return over, _PRODUCT
         under = self.times.join(self._wrapped(factor, _POWER) for factor in below)

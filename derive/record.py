@@ -17,7 +17,11 @@ def as_record(verdict: Verdict) -> dict[str, Any]:
     """A verdict as JSON can hold it."""
     scaled = verdict.outcome is Outcome.SCALED
     fields = asdict(verdict) | {"factor": PAPER_TEXT(verdict.factor) if scaled else ""}
-    return {name: list(value) if isinstance(value, tuple) else str(value) for name, value in fields.items() if value}
+    return {
+        name: list(value) if isinstance(value, tuple) else str(value)
+        for name, value in fields.items()
+        if value
+    }
 
 
 def to_json(verdicts: tuple[Verdict, ...]) -> str:
@@ -26,7 +30,9 @@ def to_json(verdicts: tuple[Verdict, ...]) -> str:
 
 def recorded() -> list[dict[str, Any]]:
     """The record that stands beside the printed equations."""
-    return json.loads(resources.files("delagrange.derive.published").joinpath(RECORD).read_text(encoding="utf-8"))
+    return json.loads(
+        resources.files("delagrange.derive.published").joinpath(RECORD).read_text(encoding="utf-8")
+    )
 
 
 def departures(verdicts: tuple[Verdict, ...], record: list[dict[str, Any]]) -> tuple[str, ...]:
@@ -37,11 +43,15 @@ def departures(verdicts: tuple[Verdict, ...], record: list[dict[str, Any]]) -> t
     for key in (*now, *(key for key in then if key not in now)):
         found, expected = now.get(key), then.get(key)
         if found != expected:
-            lines.append(f"Eq. ({key[0]}) against {key[1]}: found {_brief(found)}, recorded {_brief(expected)}")
+            lines.append(
+                f"Eq. ({key[0]}) against {key[1]}: found {_brief(found)}, recorded {_brief(expected)}"
+            )
     return tuple(lines)
 
 
 def _brief(entry: dict[str, Any] | None) -> str:
     if entry is None:
         return "nothing"
-    return "; ".join(str(value) for name, value in entry.items() if name not in ("number", "model", "quantity"))
+    return "; ".join(
+        str(value) for name, value in entry.items() if name not in ("number", "model", "quantity")
+    )

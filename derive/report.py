@@ -41,10 +41,14 @@ def as_text(verdicts: tuple[Verdict, ...], width: int = 110) -> str:
     """A plain table; the detail of each row stands folded below it."""
     table = rows(verdicts)
     columns = [max(len(row[k]) for row in (HEADINGS, *table)) for k in range(4)]
-    lines = ["  ".join(heading.ljust(size) for heading, size in zip(HEADINGS[:4], columns, strict=True)).rstrip()]
+    lines = [
+        "  ".join(heading.ljust(size) for heading, size in zip(HEADINGS[:4], columns, strict=True)).rstrip()
+    ]
     lines.append("  ".join("-" * size for size in columns))
     for row in table:
-        lines.append("  ".join(cell.ljust(size) for cell, size in zip(row[:4], columns, strict=True)).rstrip())
+        lines.append(
+            "  ".join(cell.ljust(size) for cell, size in zip(row[:4], columns, strict=True)).rstrip()
+        )
         lines.extend(textwrap.wrap(row[4], width, initial_indent="      ", subsequent_indent="      "))
     return "\n".join(lines)
 

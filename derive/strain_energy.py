@@ -50,7 +50,9 @@ def neo_hookean(shear_modulus: Quantity) -> StrainEnergy:
     def density(stretches: Stretches) -> sp.Expr:
         return shear_modulus.symbol / 2 * (_first_invariant(stretches) - 3)
 
-    return StrainEnergy("neo-Hookean", (shear_modulus,), density, "Treloar (1943), Trans. Faraday Soc. 39, 241")
+    return StrainEnergy(
+        "neo-Hookean", (shear_modulus,), density, "Treloar (1943), Trans. Faraday Soc. 39, 241"
+    )
 
 
 def mooney_rivlin(first_modulus: Quantity, second_modulus: Quantity) -> StrainEnergy:
@@ -73,4 +75,6 @@ def gent(shear_modulus: Quantity, locking: Quantity) -> StrainEnergy:
         mu, limit = shear_modulus.symbol, locking.symbol
         return -mu * limit / 2 * sp.log(1 - (_first_invariant(stretches) - 3) / limit)
 
-    return StrainEnergy("Gent", (shear_modulus, locking), density, "Gent (1996), Rubber Chem. Technol. 69, 59, Eq. (4)")
+    return StrainEnergy(
+        "Gent", (shear_modulus, locking), density, "Gent (1996), Rubber Chem. Technol. 69, 59, Eq. (4)"
+    )

@@ -58,57 +58,105 @@ def _moving(key: str, name: str, text: str, latex: str, meaning: str) -> TimeDep
     return TimeDependent(
         _quantity(key, name, text, latex, "1", meaning),
         _quantity(
-            f"{key}_dot", _rate_name(name, "rate"), _dotted(text, "\u0307"),
-            rf"\dot{{{head}}}{tail}", "1/s", f"rate of change of the {meaning}", positive=False,
+            f"{key}_dot",
+            _rate_name(name, "rate"),
+            _dotted(text, "\u0307"),
+            rf"\dot{{{head}}}{tail}",
+            "1/s",
+            f"rate of change of the {meaning}",
+            positive=False,
         ),
         _quantity(
-            f"{key}_ddot", _rate_name(name, "acceleration"), _dotted(text, "\u0308"),
-            rf"\ddot{{{head}}}{tail}", "1/s^2", f"second rate of change of the {meaning}", positive=False,
+            f"{key}_ddot",
+            _rate_name(name, "acceleration"),
+            _dotted(text, "\u0308"),
+            rf"\ddot{{{head}}}{tail}",
+            "1/s^2",
+            f"second rate of change of the {meaning}",
+            positive=False,
         ),
     )
 
 
 # Time and place
 TIME = _quantity("t", "time", "t", "t", "s", "time", positive=False)
-MATERIAL_X = _quantity("X", "material_x", "X", "X", "m", "material coordinate in the plane, axis 1", positive=False)
-MATERIAL_Y = _quantity("Y", "material_y", "Y", "Y", "m", "material coordinate in the plane, axis 2", positive=False)
-MATERIAL_Z = _quantity("Z", "material_z", "Z", "Z", "m", "material coordinate through the thickness", positive=False)
+MATERIAL_X = _quantity(
+    "X", "material_x", "X", "X", "m", "material coordinate in the plane, axis 1", positive=False
+)
+MATERIAL_Y = _quantity(
+    "Y", "material_y", "Y", "Y", "m", "material coordinate in the plane, axis 2", positive=False
+)
+MATERIAL_Z = _quantity(
+    "Z", "material_z", "Z", "Z", "m", "material coordinate through the thickness", positive=False
+)
 
 # The membrane
-HALF_LENGTH = _quantity("L", "half_length", "L", "L", "m", "half the side of the square membrane in the reference state")
+HALF_LENGTH = _quantity(
+    "L", "half_length", "L", "L", "m", "half the side of the square membrane in the reference state"
+)
 HALF_THICKNESS = _quantity("H", "half_thickness", "H", "H", "m", "half the thickness in the reference state")
 DENSITY = _quantity("rho", "density", "ρ", r"\rho", "kg/m^3", "mass density")
 PERMITTIVITY = _quantity("epsilon", "permittivity", "ε", r"\varepsilon", "F/m", "permittivity")
 SHEAR_MODULUS_ALPHA = _quantity(
-    "mu_alpha", "shear_modulus_alpha", "μ^α", r"\mu^{\alpha}", "Pa", "shear modulus of spring α, the equilibrium spring"
+    "mu_alpha",
+    "shear_modulus_alpha",
+    "μ^α",
+    r"\mu^{\alpha}",
+    "Pa",
+    "shear modulus of spring α, the equilibrium spring",
 )
 SHEAR_MODULUS_BETA = _quantity(
-    "mu_beta", "shear_modulus_beta", "μ^β", r"\mu^{\beta}", "Pa", "shear modulus of spring β, in series with the dashpot"
+    "mu_beta",
+    "shear_modulus_beta",
+    "μ^β",
+    r"\mu^{\beta}",
+    "Pa",
+    "shear modulus of spring β, in series with the dashpot",
 )
 VISCOSITY = _quantity("eta", "viscosity", "η", r"\eta", "Pa s", "viscosity of the dashpot, τ_v μ^β")
 
 # What drives it
-FORCE_1 = _quantity("P_1", "force_1", "P_1", "P_1", "N", "force on each edge normal to axis 1", positive=False)
-FORCE_2 = _quantity("P_2", "force_2", "P_2", "P_2", "N", "force on each edge normal to axis 2", positive=False)
+FORCE_1 = _quantity(
+    "P_1", "force_1", "P_1", "P_1", "N", "force on each edge normal to axis 1", positive=False
+)
+FORCE_2 = _quantity(
+    "P_2", "force_2", "P_2", "P_2", "N", "force on each edge normal to axis 2", positive=False
+)
 FORCE = _quantity("P", "force", "P", "P", "N", "force on each loaded edge", positive=False)
 FIELD = _quantity(
-    "E", "nominal_electric_field", "E", "E", "V/m",
-    "nominal electric field, voltage over reference thickness", positive=False,
+    "E",
+    "nominal_electric_field",
+    "E",
+    "E",
+    "V/m",
+    "nominal electric field, voltage over reference thickness",
+    positive=False,
 )
 REACTION_2 = _quantity(
-    "P_2p", "reaction_force_2", "P_2p", "P_{2p}", "N", "force on each edge normal to axis 2 that holds its stretch",
+    "P_2p",
+    "reaction_force_2",
+    "P_2p",
+    "P_{2p}",
+    "N",
+    "force on each edge normal to axis 2 that holds its stretch",
     positive=False,
 )
 
 # The full membrane: two in-plane stretches, two inelastic stretches of the dashpot
 STRETCH_1 = _moving("lambda_1", "stretch_1", "λ_1", r"\lambda_1", "stretch along axis 1")
 STRETCH_2 = _moving("lambda_2", "stretch_2", "λ_2", r"\lambda_2", "stretch along axis 2")
-INELASTIC_STRETCH_1 = _moving("xi_1", "inelastic_stretch_1", "ξ_1", r"\xi_1", "inelastic stretch of the dashpot along axis 1")
-INELASTIC_STRETCH_2 = _moving("xi_2", "inelastic_stretch_2", "ξ_2", r"\xi_2", "inelastic stretch of the dashpot along axis 2")
+INELASTIC_STRETCH_1 = _moving(
+    "xi_1", "inelastic_stretch_1", "ξ_1", r"\xi_1", "inelastic stretch of the dashpot along axis 1"
+)
+INELASTIC_STRETCH_2 = _moving(
+    "xi_2", "inelastic_stretch_2", "ξ_2", r"\xi_2", "inelastic stretch of the dashpot along axis 2"
+)
 
 # The coordinates of each load case
 STRETCH_EB = _moving("lambda_EB", "stretch", "λ_EB", r"\lambda_{EB}", "in-plane stretch")
-INELASTIC_STRETCH_EB = _moving("xi_EB", "inelastic_stretch", "ξ_EB", r"\xi_{EB}", "inelastic stretch of the dashpot")
+INELASTIC_STRETCH_EB = _moving(
+    "xi_EB", "inelastic_stretch", "ξ_EB", r"\xi_{EB}", "inelastic stretch of the dashpot"
+)
 
 STRETCH_UA1 = _moving("lambda_UA1", "stretch_1", "λ_UA1", r"\lambda_{UA1}", "stretch along the force")
 STRETCH_UA2 = _moving("lambda_UA2", "stretch_2", "λ_UA2", r"\lambda_{UA2}", "stretch across the force")
@@ -116,7 +164,11 @@ INELASTIC_STRETCH_UA1 = _moving(
     "xi_UA1", "inelastic_stretch_1", "ξ_UA1", r"\xi_{UA1}", "inelastic stretch of the dashpot along the force"
 )
 INELASTIC_STRETCH_UA2 = _moving(
-    "xi_UA2", "inelastic_stretch_2", "ξ_UA2", r"\xi_{UA2}", "inelastic stretch of the dashpot across the force"
+    "xi_UA2",
+    "inelastic_stretch_2",
+    "ξ_UA2",
+    r"\xi_{UA2}",
+    "inelastic stretch of the dashpot across the force",
 )
 
 STRETCH_PS = _moving("lambda_PS", "stretch", "λ_PS", r"\lambda_{PS}", "stretch along the force")
@@ -124,12 +176,20 @@ INELASTIC_STRETCH_PS = _moving(
     "xi_PS", "inelastic_stretch", "ξ_PS", r"\xi_{PS}", "inelastic stretch of the dashpot along the force"
 )
 INELASTIC_STRETCH_PS2 = _moving(
-    "xi_PS2", "inelastic_stretch_2", "ξ_PS2", r"\xi_{PS2}", "inelastic stretch of the dashpot along the held axis"
+    "xi_PS2",
+    "inelastic_stretch_2",
+    "ξ_PS2",
+    r"\xi_{PS2}",
+    "inelastic stretch of the dashpot along the held axis",
 )
-HELD_STRETCH = _quantity("lambda_2p", "held_stretch", "λ_2p", r"\lambda_{2p}", "1", "stretch at which axis 2 is held")
+HELD_STRETCH = _quantity(
+    "lambda_2p", "held_stretch", "λ_2p", r"\lambda_{2p}", "1", "stretch at which axis 2 is held"
+)
 
 # What equations are equal to
-KINETIC_ENERGY = _quantity("T", "kinetic_energy", "T", "T", "J", "kinetic energy of the membrane", positive=False)
+KINETIC_ENERGY = _quantity(
+    "T", "kinetic_energy", "T", "T", "J", "kinetic energy of the membrane", positive=False
+)
 POTENTIAL_ENERGY = _quantity(
     "Pi", "potential_energy", "Π", r"\Pi", "J", "potential of springs, forces and field", positive=False
 )

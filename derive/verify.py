@@ -43,13 +43,13 @@ def verify(eom: EquationsOfMotion, paper: Paper) -> tuple[Verdict, ...]:
     return tuple(_verdict(printed, derived, paper) for printed in printed_for(eom, paper))
 
 
-def _verdict(
-    printed: PrintedEquation, derived: Mapping[str, DerivedEquation], paper: Paper
-) -> Verdict:
+def _verdict(printed: PrintedEquation, derived: Mapping[str, DerivedEquation], paper: Paper) -> Verdict:
     equation = derived[printed.quantity]
     if printed.latex is None:
         return _missing(printed, equation)
-    note = "; ".join((*filter(None, (printed.note,)), *(f"read {r.new} for {r.old}" for r in printed.repairs)))
+    note = "; ".join(
+        (*filter(None, (printed.note,)), *(f"read {r.new} for {r.old}" for r in printed.repairs))
+    )
     tree = printed.read(paper.table)
     subject = witness(equation, _known_symbols())
     return replace(verdict_on(tree, subject), number=printed.number, note=note)

@@ -39,7 +39,10 @@ def parameters_of(module, held_stretch=2.0):
 
 
 def random_state(module, rng, shape=()):
-    values = [rng.uniform(-300, 300, shape) if v.unit == "1/s" else rng.uniform(0.6, 2.5, shape) for v in module.STATE]
+    values = [
+        rng.uniform(-300, 300, shape) if v.unit == "1/s" else rng.uniform(0.6, 2.5, shape)
+        for v in module.STATE
+    ]
     return np.array(values)
 
 
@@ -58,7 +61,11 @@ def test_agrees_with_lambdify_at_random_states(name, equations, rng):
             ours = getattr(module, function)(state, inputs, parameters)
             theirs = np.asarray(getattr(witness, function)(state, inputs, parameters), dtype=float)
             scale = np.max(np.abs(theirs)) if function in ("jacobian", "rhs") else np.abs(theirs)
-            assert np.all(np.abs(ours - theirs) <= 1e-12 * np.maximum(scale, np.abs(theirs)) + 1e-300), (function, ours, theirs)
+            assert np.all(np.abs(ours - theirs) <= 1e-12 * np.maximum(scale, np.abs(theirs)) + 1e-300), (
+                function,
+                ours,
+                theirs,
+            )
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -66,7 +73,10 @@ def test_jacobian_is_the_complex_step_derivative(name, rng):
     module, step = module_of(name), 1e-200
     for _ in range(20):
         state, inputs, parameters = random_state(module, rng), random_inputs(rng), parameters_of(module)
-        columns = [module.rhs(state + 1j * step * unit, inputs, parameters).imag / step for unit in np.eye(len(state))]
+        columns = [
+            module.rhs(state + 1j * step * unit, inputs, parameters).imag / step
+            for unit in np.eye(len(state))
+        ]
         found = module.jacobian(state, inputs, parameters)
         scale = np.abs(found).max(axis=1, keepdims=True)
         assert np.all(np.abs(found - np.transpose(columns)) <= 1e-12 * scale)
@@ -112,7 +122,15 @@ def test_the_printed_pure_shear_is_not_at_rest_even_unloaded():
 stretches = st.floats(0.6, 2.5)
 
 
-@given(a=stretches, b=stretches, xa=stretches, xb=stretches, va=st.floats(-300, 300), vb=st.floats(-300, 300), field=st.floats(0, 6e6))
+@given(
+    a=stretches,
+    b=stretches,
+    xa=stretches,
+    xb=stretches,
+    va=st.floats(-300, 300),
+    vb=st.floats(-300, 300),
+    field=st.floats(0, 6e6),
+)
 def test_uniaxial_without_force_is_symmetric_in_its_axes(a, b, xa, xb, va, vb, field):
     module = module_of("uniaxial")
     swap = [1, 0, 3, 2, 5, 4]
@@ -160,7 +178,9 @@ def test_a_copy_outside_the_package_still_works(name, tmp_path):
     (tmp_path / "copied.py").write_bytes(source.read_bytes())
     values = parameters_of(module_of(name))
     code = f"import copied; s = copied.reference_state({values}); print(copied.rhs(s, (0.1, 1e6), {values}).shape)"
-    done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, check=True)
+    done = subprocess.run(
+        [sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, check=True
+    )
     assert done.stdout.strip() == f"({len(module_of(name).STATE)},)"
 
 
@@ -170,7 +190,9 @@ def test_the_docstring_says_what_the_module_is(name):
     text = module.__doc__
     assert "do not edit" in text and "Provenance: digest" in text and "SymPy" in text
     assert "T = " in text and "Π = " in text and "Checked against the equations printed there" in text
-    assert all(variable.unit and variable.meaning for variable in (*module.STATE, *module.INPUTS, *module.PARAMETERS))
+    assert all(
+        variable.unit and variable.meaning for variable in (*module.STATE, *module.INPUTS, *module.PARAMETERS)
+    )
     for line in text.splitlines():
         assert len(line) <= 112
 
@@ -180,7 +202,8 @@ def test_no_line_is_too_long_and_no_name_is_unused():
         path = Path(str(resources.files("delagrange.generated").joinpath(f"{name}.py")))
         assert max(len(line) for line in path.read_text(encoding="utf-8").splitlines()) <= 120
         subprocess.run(
-            [sys.executable, "-m", "ruff", "check", "--isolated", "--select", "F,E7,E9", str(path)], check=True
+            [sys.executable, "-m", "ruff", "check", "--isolated", "--select", "F,E7,E9", str(path)],
+            check=True,
         )
 
 
@@ -194,7 +217,11 @@ def test_the_same_text_under_any_hash_seed():
     )
     runs = [
         subprocess.run(
-            [sys.executable, "-c", code], env={**os.environ, "PYTHONHASHSEED": seed}, capture_output=True, text=True, check=True
+            [sys.executable, "-c", code],
+            env={**os.environ, "PYTHONHASHSEED": seed},
+            capture_output=True,
+            text=True,
+            check=True,
         ).stdout
         for seed in ("0", "1", "4711")
     ]
@@ -226,7 +253,10 @@ def test_checked_in_modules_are_what_the_derivation_emits(equations, tmp_path):
     folder = Path(str(resources.files("delagrange.generated")))
     assert pipeline.stale(modules, folder) == ()
     pipeline.write(modules, tmp_path)
-    assert hashlib.sha256((tmp_path / "uniaxial.py").read_bytes()).digest() == hashlib.sha256((folder / "uniaxial.py").read_bytes()).digest()
+    assert (
+        hashlib.sha256((tmp_path / "uniaxial.py").read_bytes()).digest()
+        == hashlib.sha256((folder / "uniaxial.py").read_bytes()).digest()
+    )
     (tmp_path / "uniaxial.py").write_text("edited by hand")
     assert pipeline.stale(modules, tmp_path) == ("uniaxial.py",)
 

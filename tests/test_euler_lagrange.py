@@ -22,7 +22,9 @@ def _sympy_mechanics(lagrangian, coordinates):
     """Euler-Lagrange expressions from sympy.physics.mechanics, in our symbols."""
     functions = {c: dynamicsymbols(f"q{k}") for k, c in enumerate(coordinates)}
     time = dynamicsymbols._t
-    forward = {c.value.symbol: f for c, f in functions.items()} | {c.rate.symbol: f.diff(time) for c, f in functions.items()}
+    forward = {c.value.symbol: f for c, f in functions.items()} | {
+        c.rate.symbol: f.diff(time) for c, f in functions.items()
+    }
     method = LagrangesMethod(lagrangian.subs(forward), list(functions.values()))
     back = [(f.diff(time, 2), c.acceleration.symbol) for c, f in functions.items()]
     back += [(f.diff(time), c.rate.symbol) for c, f in functions.items()]
@@ -42,15 +44,23 @@ def test_operator_takes_any_number_of_coordinates():
     coordinates = (s.STRETCH_1, s.STRETCH_2, s.STRETCH_PS)
     q = [c.value.symbol for c in coordinates]
     v = [c.rate.symbol for c in coordinates]
-    lagrangian = sum(vi**2 * (1 + qi**2) for vi, qi in zip(v, q, strict=True)) + q[0] * v[1] * v[2] - q[0] * q[1] ** 2 * q[2]
-    for ours, theirs in zip(euler_lagrange(lagrangian, coordinates), _sympy_mechanics(lagrangian, coordinates), strict=True):
+    lagrangian = (
+        sum(vi**2 * (1 + qi**2) for vi, qi in zip(v, q, strict=True))
+        + q[0] * v[1] * v[2]
+        - q[0] * q[1] ** 2 * q[2]
+    )
+    for ours, theirs in zip(
+        euler_lagrange(lagrangian, coordinates), _sympy_mechanics(lagrangian, coordinates), strict=True
+    ):
         assert sp.expand(ours - theirs) == 0
 
 
 @pytest.mark.parametrize("name", ALL)
 def test_first_order_form_solves_the_residuals(name, equations):
     eom = equations(name)
-    solution = dict(zip((c.acceleration.symbol for c in eom.load_case.coordinates), eom.acceleration, strict=True))
+    solution = dict(
+        zip((c.acceleration.symbol for c in eom.load_case.coordinates), eom.acceleration, strict=True)
+    )
     assert all(sp.simplify(residual.subs(solution)) == 0 for residual in eom.residuals)
 
 
@@ -66,8 +76,12 @@ def _energy_rate(eom):
     """d(T + Pi)/dt along a solution, forces and field constant."""
     load_case = eom.load_case
     rates = {i.rate.symbol: rate for i, rate in zip(load_case.internals, eom.internal_rates, strict=True)}
-    accelerations = dict(zip((c.acceleration.symbol for c in load_case.coordinates), eom.acceleration, strict=True))
-    total = time_derivative(eom.kinetic_energy + eom.potential_energy, load_case.coordinates + load_case.internals)
+    accelerations = dict(
+        zip((c.acceleration.symbol for c in load_case.coordinates), eom.acceleration, strict=True)
+    )
+    total = time_derivative(
+        eom.kinetic_energy + eom.potential_energy, load_case.coordinates + load_case.internals
+    )
     return total.subs(rates).subs(accelerations)
 
 
@@ -116,7 +130,10 @@ def test_swapping_the_axes_leaves_the_membrane(equations):
 
 def test_uniaxial_is_the_membrane_with_one_force(equations):
     full, uniaxial = equations("biaxial"), equations("uniaxial")
-    substitution = kinematics(full.membrane, UNIAXIAL) | {s.FORCE_1.symbol: s.FORCE.symbol, s.FORCE_2.symbol: 0}
+    substitution = kinematics(full.membrane, UNIAXIAL) | {
+        s.FORCE_1.symbol: s.FORCE.symbol,
+        s.FORCE_2.symbol: 0,
+    }
     for ours, theirs in zip(uniaxial.residuals, full.residuals, strict=True):
         assert sp.expand(ours - theirs.subs(substitution, simultaneous=True)) == 0
 
@@ -124,7 +141,9 @@ def test_uniaxial_is_the_membrane_with_one_force(equations):
 def test_equal_forces_give_the_equal_biaxial_motion(equations):
     """On the diagonal both residuals of the full membrane are half the equal-biaxial one."""
     full, diagonal = equations("biaxial"), equations("equal_biaxial")
-    substitution = kinematics(full.membrane, EQUAL_BIAXIAL) | {f.symbol: s.FORCE.symbol for f in full.membrane.forces}
+    substitution = kinematics(full.membrane, EQUAL_BIAXIAL) | {
+        f.symbol: s.FORCE.symbol for f in full.membrane.forces
+    }
     for residual in full.residuals:
         assert sp.expand(2 * residual.subs(substitution, simultaneous=True) - diagonal.residuals[0]) == 0
 
@@ -134,7 +153,9 @@ def test_the_reaction_holds_the_axis(name, equations, load_case):
     """With the reaction as its force, the full membrane started on the constraint stays there: lambda_2'' = 0."""
     full, held = equations("biaxial"), equations(name)
     substitution = kinematics(full.membrane, load_case(name))
-    moving = dict(zip((c.acceleration.symbol for c in held.load_case.coordinates), held.acceleration, strict=True))
+    moving = dict(
+        zip((c.acceleration.symbol for c in held.load_case.coordinates), held.acceleration, strict=True)
+    )
     loads = {s.FORCE_1.symbol: s.FORCE.symbol, s.FORCE_2.symbol: held.reaction_forces[0].subs(moving)}
     first, second = full.acceleration
     assert sp.simplify(second.subs(loads).subs(substitution, simultaneous=True)) == 0
@@ -174,7 +195,8 @@ def _linear_frequency(eom, values):
 def test_small_vibration_of_the_undeformed_membrane(equations):
     """f_n = sqrt(18 (mu_alpha + mu_beta) / (rho H^2 (2 + L^2/H^2))) / (2 pi) = 918.9 Hz."""
     L, H, rho, ma, mb = (
-        q.symbol for q in (s.HALF_LENGTH, s.HALF_THICKNESS, s.DENSITY, s.SHEAR_MODULUS_ALPHA, s.SHEAR_MODULUS_BETA)
+        q.symbol
+        for q in (s.HALF_LENGTH, s.HALF_THICKNESS, s.DENSITY, s.SHEAR_MODULUS_ALPHA, s.SHEAR_MODULUS_BETA)
     )
     values = {L: sp.Rational(5, 1000), H: sp.Rational(1, 1000), rho: 1200, ma: 18000, mb: 42000}
     found = _linear_frequency(equations("equal_biaxial"), values)
@@ -191,7 +213,9 @@ def test_pull_in_of_the_ideal_neo_hookean_dielectric(equations):
     squared = sp.solve(balance, field**2)[0]
     turning = [root for root in sp.solve(squared.diff(stretch), stretch) if root.is_positive]
     assert turning == [sp.cbrt(2)]
-    critical = sp.sqrt(squared.subs(stretch, turning[0]) * s.PERMITTIVITY.symbol / s.SHEAR_MODULUS_ALPHA.symbol)
+    critical = sp.sqrt(
+        squared.subs(stretch, turning[0]) * s.PERMITTIVITY.symbol / s.SHEAR_MODULUS_ALPHA.symbol
+    )
     assert float(critical) == pytest.approx(0.68736, abs=5e-6)
 
 
@@ -206,6 +230,8 @@ def test_relaxation_at_a_held_stretch(equations):
 
 def test_a_constraint_at_odds_with_the_dashpots_is_refused(equations):
     shared = s.INELASTIC_STRETCH_UA1
-    case = replace(UNIAXIAL, internals=(shared,), inelastic_stretches=(shared.value.symbol, shared.value.symbol))
+    case = replace(
+        UNIAXIAL, internals=(shared,), inelastic_stretches=(shared.value.symbol, shared.value.symbol)
+    )
     with pytest.raises(ValueError, match="inelastic_stretch_1 has two different dashpot rates"):
         equations_of_motion(equations("uniaxial").membrane, case)

@@ -25,7 +25,9 @@ from delagrange.derive.strain_energy import gent, mooney_rivlin, neo_hookean
 stretch = st.floats(0.5, 3.0)
 rate = st.floats(-500.0, 500.0)
 LOCKING = s.Quantity(sp.Symbol("J_m", positive=True), "locking", "J_m", "J_m", "1", "locking limit")
-SECOND = s.Quantity(sp.Symbol("mu_2", positive=True), "second_modulus", "μ_2", r"\mu_2", "Pa", "second modulus")
+SECOND = s.Quantity(
+    sp.Symbol("mu_2", positive=True), "second_modulus", "μ_2", r"\mu_2", "Pa", "second modulus"
+)
 
 
 @pytest.fixture(scope="module")
@@ -91,7 +93,11 @@ def test_forces_do_work_on_the_length_of_the_membrane(paper):
 
 @pytest.mark.parametrize(
     "spring",
-    [neo_hookean(s.SHEAR_MODULUS_BETA), mooney_rivlin(s.SHEAR_MODULUS_BETA, SECOND), gent(s.SHEAR_MODULUS_BETA, LOCKING)],
+    [
+        neo_hookean(s.SHEAR_MODULUS_BETA),
+        mooney_rivlin(s.SHEAR_MODULUS_BETA, SECOND),
+        gent(s.SHEAR_MODULUS_BETA, LOCKING),
+    ],
     ids=lambda spring: spring.name,
 )
 def test_the_dashpot_law_holds_for_any_strain_energy(spring, rng):
@@ -123,7 +129,9 @@ def test_dissipation_is_what_the_springs_energy_loses(paper):
     assert sp.simplify(loss - paper.dashpot_power) == 0
 
 
-@pytest.mark.parametrize("spring", [mooney_rivlin(s.SHEAR_MODULUS_BETA, SECOND), gent(s.SHEAR_MODULUS_BETA, LOCKING)])
+@pytest.mark.parametrize(
+    "spring", [mooney_rivlin(s.SHEAR_MODULUS_BETA, SECOND), gent(s.SHEAR_MODULUS_BETA, LOCKING)]
+)
 def test_dissipation_identity_for_other_springs(spring):
     model = membrane(neo_hookean(s.SHEAR_MODULUS_ALPHA), spring)
     loss = -sum(model.energies.total.diff(i.value.symbol) * i.rate.symbol for i in INTERNALS)

@@ -43,7 +43,9 @@ def _starting_tree(number: str):
     tree = read_equation(text, SHENG_2015.table, number=number)
     if number != "21":
         return tree
-    to_the_end = [e for e in single_edits(tree) if e.kind == "bracket" and e.after.rstrip().endswith(r"\right]")]
+    to_the_end = [
+        e for e in single_edits(tree) if e.kind == "bracket" and e.after.rstrip().endswith(r"\right]")
+    ]
     return max(to_the_end, key=lambda edit: len(edit.after)).equation
 
 
@@ -84,7 +86,9 @@ def _solved(tree, unknown, values: dict) -> tuple[Fraction | None, Fraction]:
 
 def _points():
     random = Random(7)
-    return [{symbol: Fraction(random.randint(3, 97), random.randint(3, 97)) for symbol in KNOWN} for _ in range(2)]
+    return [
+        {symbol: Fraction(random.randint(3, 97), random.randint(3, 97)) for symbol in KNOWN} for _ in range(2)
+    ]
 
 
 POINTS = _points()

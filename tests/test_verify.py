@@ -68,7 +68,9 @@ def test_eq_15_names_the_terms_without_partner(verdicts):
     verdict = verdicts["15", "uniaxial"]
     assert verdict.derived_unmatched == ("μ^β ξ_UA1³ ξ_UA2² / (6 η λ_UA1² λ_UA2²)",)
     assert len(verdict.printed_unmatched) == 2
-    assert all(r"\lambda_{\mathrm{UA2}}^{-2} \xi_{\mathrm{UA1}}^{3}" in term for term in verdict.printed_unmatched)
+    assert all(
+        r"\lambda_{\mathrm{UA2}}^{-2} \xi_{\mathrm{UA1}}^{3}" in term for term in verdict.printed_unmatched
+    )
     assert verdict.corrections == ()  # no single edit mends two terms
 
 
@@ -81,7 +83,10 @@ def test_eq_21_is_mended_by_its_bracket_and_breaks_the_unit(verdicts):
     verdict = verdicts["21", "pure_shear_as_printed"]
     assert [correction.partition(":")[0] for correction in verdict.corrections] == ["bracket"]
     assert len(verdict.unit_faults) == 2
-    assert r"\frac{P}{4HL}\lambda_{PS}^{4} has dimension kg m^-1 s^-2, where s^-2 is expected" in verdict.unit_faults[0]
+    assert (
+        r"\frac{P}{4HL}\lambda_{PS}^{4} has dimension kg m^-1 s^-2, where s^-2 is expected"
+        in verdict.unit_faults[0]
+    )
     assert r"\varepsilon E^{2}" in verdict.unit_faults[1]
     assert [fault for v in verdicts.values() if v.number != "21" for fault in v.unit_faults] == []
 
@@ -116,25 +121,40 @@ def test_a_derived_term_with_another_unit_is_named(equations):
 
 
 def test_scaling_both_sides_is_seen_as_scaling(subject):
-    tree = read_equation(r"3 \frac{d\xi_{EB}}{dt} = \frac{\mu^{\beta}}{2\eta} (\lambda_{EB}^2 \xi_{EB}^{-1} - \lambda_{EB}^{-4} \xi_{EB}^5)", SHENG_2015.table, number="x")
+    tree = read_equation(
+        r"3 \frac{d\xi_{EB}}{dt} = \frac{\mu^{\beta}}{2\eta} (\lambda_{EB}^2 \xi_{EB}^{-1} - \lambda_{EB}^{-4} \xi_{EB}^5)",
+        SHENG_2015.table,
+        number="x",
+    )
     verdict = verdict_on(tree, subject("equal_biaxial", "dashpot_rate_1"))
     assert (verdict.outcome, verdict.factor) == (Outcome.SCALED, 3)
 
 
 def test_terms_may_stand_on_either_side(subject):
-    tree = read_equation(r"\frac{d\xi_{EB}}{dt} - \frac{\mu^{\beta}}{6\eta} \lambda_{EB}^2 \xi_{EB}^{-1} = - \frac{\mu^{\beta}}{6\eta} \lambda_{EB}^{-4} \xi_{EB}^5", SHENG_2015.table, number="x")
+    tree = read_equation(
+        r"\frac{d\xi_{EB}}{dt} - \frac{\mu^{\beta}}{6\eta} \lambda_{EB}^2 \xi_{EB}^{-1} = - \frac{\mu^{\beta}}{6\eta} \lambda_{EB}^{-4} \xi_{EB}^5",
+        SHENG_2015.table,
+        number="x",
+    )
     assert verdict_on(tree, subject("equal_biaxial", "dashpot_rate_1")).outcome is Outcome.EQUAL
 
 
 @pytest.mark.parametrize("latex", [r"\mu^{\beta} = \mu^{\beta}", r"0 = 0", r"\lambda_{EB} = \xi_{EB}"])
 def test_an_equation_without_the_unknown_differs(latex, subject):
     tree = read_equation(latex, SHENG_2015.table, number="x")
-    assert verdict_on(tree, subject("equal_biaxial", "dashpot_rate_1"), explained=False).outcome is Outcome.DIFFERS
+    assert (
+        verdict_on(tree, subject("equal_biaxial", "dashpot_rate_1"), explained=False).outcome
+        is Outcome.DIFFERS
+    )
 
 
 def test_an_equation_that_bends_in_the_unknown_differs(subject):
     """At 0 and 1 the square of the unknown looks like the unknown."""
-    tree = read_equation(r"(\frac{d\xi_{EB}}{dt})^2 = \frac{\mu^{\beta}}{6\eta} (\lambda_{EB}^2 \xi_{EB}^{-1} - \lambda_{EB}^{-4} \xi_{EB}^5)", SHENG_2015.table, number="x")
+    tree = read_equation(
+        r"(\frac{d\xi_{EB}}{dt})^2 = \frac{\mu^{\beta}}{6\eta} (\lambda_{EB}^2 \xi_{EB}^{-1} - \lambda_{EB}^{-4} \xi_{EB}^5)",
+        SHENG_2015.table,
+        number="x",
+    )
     assert not compare(tree, subject("equal_biaxial", "dashpot_rate_1")).equal
 
 
@@ -162,7 +182,10 @@ def test_verdicts_are_as_recorded(verdicts):
     assert departures(tuple(verdicts.values()), record) == ()
 
 
-@pytest.mark.parametrize("field", ["outcome", "factor", "printed_unmatched", "derived_unmatched", "corrections", "unit_faults", "derived"])
+@pytest.mark.parametrize(
+    "field",
+    ["outcome", "factor", "printed_unmatched", "derived_unmatched", "corrections", "unit_faults", "derived"],
+)
 def test_a_departure_from_the_record_is_reported(field, verdicts):
     record = copy.deepcopy([entry for entry in recorded() if entry["model"] in MODELS])
     changed = next(entry for entry in record if field in entry)

@@ -1,0 +1,1 @@
+"""What a run or a sweep shows: one diagnostic a file."""

@@ -1,0 +1,81 @@
+"""`delagrange derive`: from the energies to the emitted modules."""
+
+from __future__ import annotations
+
+from importlib import resources
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from delagrange.cli import console
+from delagrange.cli import options as o
+from delagrange.cli.interruption import interruptible
+from delagrange.cli.verdicts import show
+from delagrange.cli.verify import Details, as_recorded
+from delagrange.files import prepare_folder
+
+if TYPE_CHECKING:
+    from delagrange.derive.pipeline import Walked
+
+ModuleFolder = Annotated[
+    Path | None,
+    typer.Option("--out", metavar="DIR", help="Folder of the modules.", show_default="delagrange.generated"),
+]
+Check = Annotated[
+    bool,
+    typer.Option("--check", help="Write nothing: compare the folder, byte for byte, with what is emitted."),
+]
+
+
+def derive(
+    out: ModuleFolder = None, check: Check = False, details: Details = False, quiet: o.Quiet = False
+) -> None:
+    """Derive, check against the paper and write one NumPy module a model.
+
+    From the motion, the kinetic energy T and the potential Π of Eqs. (1)-(6) to
+    the Euler-Lagrange equations of each load case (equal-biaxial, uniaxial, pure
+    shear in its formulations), the verdicts on the printed equations, and the
+    modules that 'delagrange simulate' integrates. A module needs NumPy only.
+
+    Exit code 1 where a verdict is not the recorded one or, with --check, a
+    module is stale.
+
+    [bold]Examples[/]
+
+      delagrange derive --out modules
+      delagrange derive --check
+    """
+    folder = out if out is not None else Path(str(resources.files("delagrange.generated")))
+    if not check:
+        prepare_folder(folder)
+    with (
+        interruptible("nothing was written"),
+        console.messages(quiet).status("deriving, checking and emitting"),
+    ):
+        from delagrange.derive import pipeline
+
+        walked = pipeline.walk()
+    show(walked.verdicts, details)
+    stale = _stale(walked, folder) if check else _write(walked, folder)
+    if not as_recorded(walked.verdicts) or stale:
+        raise typer.Exit(1)
+
+
+def _stale(walked: Walked, folder: Path) -> bool:
+    """Whether a module in the folder is not what the derivation emits; it is named on standard error."""
+    from delagrange.derive import pipeline
+
+    old = pipeline.stale(walked.modules, folder)
+    for name in old:
+        console.complain(f"stale: {folder / name} is not what the derivation emits; run `delagrange derive`")
+    print(f"{len(walked.modules) - len(old)} of {len(walked.modules)} modules in {folder} are as emitted")
+    return bool(old)
+
+
+def _write(walked: Walked, folder: Path) -> bool:
+    from delagrange.derive import pipeline
+
+    pipeline.write(walked.modules, folder)
+    print(f"written: {len(walked.modules)} modules in {folder}")
+    return False

@@ -1,0 +1,154 @@
+"""Many independent runs at once: an adaptive embedded Runge-Kutta method over lanes of trajectories.
+
+Every lane has its own time, step and error control, and leaves when it is done or lost. All work is
+element by element over the lanes, so that a lane's result is the same, bit for bit, whatever lanes are
+integrated beside it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
+
+from delagrange import loss
+from delagrange.extrema import widen
+from delagrange.interpolation import evaluate, first_crossing, step_polynomial
+from delagrange.lanes import Lanes, Outcome, Settings, Trial, empty_outcome, first_lanes, joined
+from delagrange.problem import Problem
+from delagrange.step_control import combine
+
+
+def integrate_lanes(problem: Problem, initial_state: np.ndarray, settings: Settings) -> Outcome:
+    """Integrate every lane from `initial_state`, (n_state, n_lanes), at t = 0 over the duration."""
+    coordinates = problem.model.COORDINATE_COUNT
+    outcome = empty_outcome(initial_state, coordinates, loss.INTERRUPTED)
+    lanes = first_lanes(initial_state, coordinates)
+    with np.errstate(all="ignore"):
+        lanes = _without_lost_at_start(problem, lanes, settings, outcome)
+        for span in segments(problem, settings):
+            inside = settings.window[0] <= span[0] and span[1] <= settings.window[1]
+            measured = settings if inside else replace(settings, extrema="none")
+            lanes = _run_segment(problem, lanes, measured, span, outcome)
+    outcome.record_into(lanes, loss.COMPLETED)
+    return outcome
+
+
+def _without_lost_at_start(problem: Problem, lanes: Lanes, settings: Settings, outcome: Outcome) -> Lanes:
+    """A lane is lost before it moves where its initial or held stretch is beyond the limits."""
+    principal = problem.principal_stretches(lanes.time, lanes.state)
+    lost = np.broadcast_to(~(loss.margin(principal, settings.limits) > 0), lanes.index.shape)
+    kind = np.broadcast_to(loss.kind_of_loss(principal, settings.limits), lost.shape)
+    outcome.record_into(lanes.take(np.flatnonzero(lost)), kind[lost])
+    return lanes.take(np.flatnonzero(~lost))
+
+
+def segments(problem: Problem, settings: Settings) -> Iterator[tuple[float, float]]:
+    """Spans [s] in which the drives are smooth and which lie inside the window or outside of it."""
+    times = {0.0, settings.duration, *settings.window, *problem.breakpoints(0.0, settings.duration)}
+    bounds = sorted(times)
+    return pairwise(bounds)
+
+
+def _run_segment(
+    problem: Problem, lanes: Lanes, settings: Settings, span: tuple[float, float], outcome: Outcome
+) -> Lanes:
+    """Take the lanes to the end of the span; those that are lost on the way go to `outcome`."""
+    every_lane = problem.piece(*span)
+    running = every_lane.take(lanes.index)
+    lanes = _at_start(running, lanes, settings, span[1])
+    buffer = np.empty((settings.tableau.stage_count + 1) * lanes.state.size)
+    arrived = []
+    while len(lanes.index):
+        trial = _try_step(running, lanes, settings, span[1], buffer)
+        lanes, lost = _judge(running, trial, settings, outcome)
+        leaving = lost | (lanes.time >= span[1])
+        if np.any(leaving):
+            arrived.append(lanes.take(np.flatnonzero(leaving & ~lost)))
+            lanes = lanes.take(np.flatnonzero(~leaving))
+            running = every_lane.take(lanes.index)
+    return joined(arrived) if arrived else lanes
+
+
+def _at_start(problem: Problem, lanes: Lanes, settings: Settings, stop: float) -> Lanes:
+    """The lanes with the rate and first step of a new segment, and its first values measured."""
+    rate = np.array(problem.rhs(lanes.time, lanes.state))
+    step = settings.control.first_step(problem, settings.tableau, lanes.time, lanes.state, rate, stop)
+    lanes = replace(lanes, rate=rate, step=step, retried=np.zeros(len(lanes.index), dtype=bool))
+    if settings.extrema == "none":
+        return lanes
+    values = lanes.state[: len(lanes.maximum)]
+    return replace(
+        lanes, maximum=np.maximum(lanes.maximum, values), minimum=np.minimum(lanes.minimum, values)
+    )
+
+
+def _try_step(problem: Problem, lanes: Lanes, settings: Settings, stop: float, buffer: np.ndarray) -> Trial:
+    tableau, control = settings.tableau, settings.control
+    step, end = control.bounded(lanes.step, lanes.time, stop)
+    shape = (tableau.stage_count + 1, *lanes.state.shape)
+    stages = buffer[: np.prod(shape)].reshape(shape)
+    stages[0] = lanes.rate
+    for stage in range(1, tableau.stage_count):
+        increment = step * combine(tableau.coupling[stage], stages)
+        stages[stage] = problem.rhs(lanes.time + tableau.nodes[stage] * step, lanes.state + increment)
+    state = lanes.state + step * combine(tableau.weights, stages)
+    stages[-1] = problem.rhs(end, state)
+    error = control.error(tableau, stages, step, lanes.state, state)
+    accepted = error <= 1
+    next_step = control.next_step(tableau, step, error, accepted, lanes.retried)
+    return Trial(lanes, step, stages, accepted, next_step, np.ones(len(step)), end, state)
+
+
+def _judge(problem: Problem, trial: Trial, settings: Settings, outcome: Outcome) -> tuple[Lanes, np.ndarray]:
+    """The lanes after the step, and which of them are lost (and written to `outcome`)."""
+    principal = problem.principal_stretches(trial.end, trial.state)
+    beyond = trial.accepted & ~(loss.margin(principal, settings.limits) > 0)
+    stuck = ~trial.accepted & (trial.next_step < settings.control.smallest_step(trial.before.time))
+    if np.any(beyond):
+        trial = _cut_at_loss(problem, trial, settings, np.flatnonzero(beyond))
+    lanes = _after(trial, *widen(problem, trial, settings))
+    if np.any(beyond | stuck):
+        principal = problem.principal_stretches(trial.end, trial.state)
+        kind = np.where(stuck, loss.DIVERGED, loss.kind_of_loss(principal, settings.limits))
+        lost = np.flatnonzero(beyond | stuck)
+        outcome.record_into(lanes.take(lost), kind[lost])
+    return lanes, beyond | stuck
+
+
+def _cut_at_loss(problem: Problem, trial: Trial, settings: Settings, places: np.ndarray) -> Trial:
+    """The trial with the steps of the lost lanes, at `places`, ending where the limit is passed."""
+    lost, some = trial.take(places), problem.take(places)
+    before = lost.before
+    polynomial = step_polynomial(some, settings.tableau, lost.stages, before.time, lost.step, before.state)
+
+    def distance(fraction: np.ndarray) -> np.ndarray:
+        state = evaluate(polynomial, fraction)
+        return loss.margin(
+            some.principal_stretches(before.time + fraction * lost.step, state), settings.limits
+        )
+
+    crossing = first_crossing(distance, places.shape)
+    fraction, end, state = trial.fraction.copy(), trial.end.copy(), trial.state.copy()
+    fraction[places] = crossing
+    end[places] = before.time + crossing * lost.step
+    state[:, places] = evaluate(polynomial, crossing)
+    return replace(trial, fraction=fraction, end=end, state=state)
+
+
+def _after(trial: Trial, maximum: np.ndarray, minimum: np.ndarray) -> Lanes:
+    before, accepted = trial.before, trial.accepted
+    return Lanes(
+        index=before.index,
+        time=np.where(accepted, trial.end, before.time),
+        step=trial.next_step,
+        retried=~accepted,
+        state=np.where(accepted, trial.state, before.state),
+        rate=np.where(accepted, trial.stages[-1], before.rate),
+        maximum=maximum,
+        minimum=minimum,
+        steps=before.steps + accepted,
+        rejections=before.rejections + ~accepted,
+    )

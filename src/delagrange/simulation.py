@@ -1,0 +1,194 @@
+"""One trajectory, integrated by SciPy, as a Dataset."""
+
+from __future__ import annotations
+
+from types import ModuleType
+
+import numpy as np
+import xarray as xr
+
+from delagrange import checks, loss
+from delagrange.dataset import run_attributes, status_time_variable, status_variable, variable
+from delagrange.drive import Drive
+from delagrange.loss import Limits
+from delagrange.models import load_model
+from delagrange.parameters import SHENG_2015, Parameters
+from delagrange.problem import Problem, make_problem
+from delagrange.tolerances import check_duration, check_tolerances
+from delagrange.trajectory import METHODS, Trajectory, integrate
+
+_SPACING = 25e-6  # [s], some 40 samples in a period of the paper's membrane
+_FEWEST_SAMPLES, _MOST_SAMPLES = 2001, 1_000_001
+
+
+def simulate(
+    model: str | ModuleType,
+    *,
+    duration: float,
+    force: Drive | float = 0.0,
+    field: Drive | float = 0.0,
+    held_stretch: float | None = None,
+    formulation: str | None = None,
+    lateral_dashpot: str | None = None,
+    parameters: Parameters = SHENG_2015,
+    time: np.ndarray | None = None,
+    samples: int | None = None,
+    initial_state: np.ndarray | None = None,
+    method: str = "DOP853",
+    rtol: float = 1e-9,
+    atol: float = 1e-12,
+    energies: bool = False,
+    limits: Limits = Limits(),  # noqa: B008  (frozen)
+    progress: bool = False,
+    **material: float,
+) -> xr.Dataset:
+    """Integrate one run from t = 0 over `duration` [s].
+
+    Args:
+        model: name of a load case or of a generated module, or such a module itself.
+        force: drive of the applied force, or a number [N]; a number is a step at t = 0.
+        field: drive of the nominal electric field, or a number [V/m].
+        held_stretch: stretch [1] at which pure shear holds axis 2; needed there, refused elsewhere.
+        formulation, lateral_dashpot: choice among the models of pure shear, see `load_model`.
+        parameters: the membrane; `**material` replaces single values of it, `relaxation_time` [s] included.
+        time: times [s] of the output, increasing, from 0 to `duration`; or
+        samples: how many, evenly spaced. Left out, they lie at most 25 us apart (at least 2001, at
+            most 1000001 of them).
+        initial_state: (n_state,) in the order of `model.STATE`; left out, at rest in the reference state.
+        method: "DOP853", "RK45", or with the Jacobian, for short relaxation times, "Radau", "BDF", "LSODA";
+            "auto" takes Radau where the Jacobian at the start has a decay much faster than its vibration,
+            else DOP853.
+        rtol, atol: tolerances of the local error of every state variable, in its own unit.
+        energies: give energies and powers as well.
+        limits: stretches beyond which the solution counts as lost.
+        progress: show a progress bar on standard error.
+
+    Returns:
+        Dataset over `time`: the state, the inputs, `thickness_stretch`, reactions where the model has them,
+        energies on request; and `status` ("completed", "collapsed", "diverged") with `status_time`. After
+        the loss of the solution the variables of the state are NaN.
+
+    Raises:
+        ValueError: something given makes no sense; the message names it, its value, its unit and what is
+            allowed.
+    """
+    module = load_model(model, formulation, lateral_dashpot)
+    duration = check_duration(duration)
+    rtol, atol = check_tolerances(rtol, atol)
+    checks.choice("method", method, METHODS)
+    problem = make_problem(module, parameters, material, held_stretch, force, field)
+    _check_single(problem)
+    for entry, drive in zip(module.INPUTS, problem.drives):
+        drive.check_window(entry.name, 0.0, duration)
+    times = _output_times(time, samples, duration)
+    start = initial_values(problem, initial_state)
+    trajectory = integrate(problem, start, times, duration, method, rtol, atol, limits, progress)
+    numerics = {"method": trajectory.method, "rtol": rtol, "atol": atol, "duration": duration}
+    attributes = run_attributes(problem, parameters.replace(**material), limits) | numerics
+    return _dataset(problem, times, trajectory, energies, attributes)
+
+
+def _check_single(problem: Problem) -> None:
+    entries = [
+        *zip(problem.model.PARAMETERS, problem.parameters),
+        *zip(problem.model.INPUTS, problem.inputs(0.0)),
+    ]
+    for entry, value in entries:
+        checks.scalar(entry.name, value, entry.unit)
+
+
+def _output_times(time: np.ndarray | None, samples: int | None, duration: float) -> np.ndarray:
+    if time is not None and samples is not None:
+        raise ValueError(f"time and samples = {samples} both given; give one")
+    if time is None:
+        wanted = int(np.clip(np.ceil(duration / _SPACING) + 1, _FEWEST_SAMPLES, _MOST_SAMPLES))
+        return np.linspace(0.0, duration, wanted if samples is None else checks.count("samples", samples, 2))
+    times = checks.increasing("time", time, "s")
+    if times[0] < 0 or times[-1] > duration:
+        raise ValueError(
+            f"time must lie from 0 s to {duration:g} s (the duration), got {times[0]:g} to {times[-1]:g} s"
+        )
+    return times
+
+
+def initial_values(problem: Problem, given: np.ndarray | None) -> np.ndarray:
+    """The state at t = 0, (n_state,): as given, or the reference state.
+
+    Raises:
+        ValueError: wrong length, not finite, or a stretch that is not positive.
+    """
+    model = problem.model
+    if given is None:
+        return np.array(model.reference_state(problem.parameters), dtype=float)
+    names = ", ".join(f"{entry.name} [{entry.unit}]" for entry in model.STATE)
+    state = np.asarray(checks.finite("initial_state", given, "the units of the state"))
+    if state.shape != (len(model.STATE),):
+        raise ValueError(
+            f"initial_state must hold {len(model.STATE)} values ({names}), got shape {state.shape}"
+        )
+    for entry, value in zip(model.STATE, state):
+        if "stretch_rate" not in entry.name:
+            checks.positive(f"initial_state {entry.name}", value, entry.unit)
+    return state
+
+
+def _dataset(
+    problem: Problem, times: np.ndarray, trajectory: Trajectory, energies: bool, attributes: dict[str, object]
+) -> xr.Dataset:
+    inputs = [np.broadcast_to(values, times.shape) for values in problem.inputs(times)]
+    with np.errstate(all="ignore"):
+        data = {
+            **_state_variables(problem, trajectory.state),
+            **_input_variables(problem, inputs),
+            **_derived_variables(problem, trajectory.state, inputs),
+            **(_energy_variables(problem, trajectory.state, inputs) if energies else {}),
+        }
+    data["status"] = status_variable((), trajectory.status)
+    data["status_time"] = status_time_variable((), trajectory.status_time)
+    attributes |= {"status": loss.STATUS[trajectory.status], "status_time": trajectory.status_time}
+    return xr.Dataset(data, coords={"time": variable("time", times, "s", "time", "t")}, attrs=attributes)
+
+
+def _state_variables(problem: Problem, state: np.ndarray) -> dict[str, tuple]:
+    return {
+        entry.name: variable("time", values, entry.unit, entry.meaning, entry.symbol)
+        for entry, values in zip(problem.model.STATE, state)
+    }
+
+
+def _input_variables(problem: Problem, inputs: list[np.ndarray]) -> dict[str, tuple]:
+    return {
+        entry.name: variable("time", np.array(values), entry.unit, entry.meaning, entry.symbol)
+        for entry, values in zip(problem.model.INPUTS, inputs)
+    }
+
+
+def _derived_variables(problem: Problem, state: np.ndarray, inputs: list[np.ndarray]) -> dict[str, tuple]:
+    model = problem.model
+    principal = model.principal_stretches(state, inputs, problem.parameters)
+    derived = {
+        "thickness_stretch": variable("time", principal[2], "1", "stretch through the thickness", "λ_3")
+    }
+    if getattr(model, "REACTIONS", ()):
+        forces = model.reaction_forces(state, inputs, problem.parameters)
+        for entry, values in zip(model.REACTIONS, forces):
+            derived[entry.name] = variable("time", values, entry.unit, entry.meaning, entry.symbol)
+    return derived
+
+
+_ENERGIES = {
+    "kinetic_energy": ("J", "kinetic energy of the membrane", "T"),
+    "potential_energy": ("J", "potential of springs, forces and field", "Π"),
+    "force_power": ("W", "power put in by the applied forces", ""),
+    "dashpot_power": ("W", "power dissipated in the dashpots", ""),
+}
+
+
+def _energy_variables(problem: Problem, state: np.ndarray, inputs: list[np.ndarray]) -> dict[str, tuple]:
+    data = {}
+    for name, (unit, meaning, symbol) in _ENERGIES.items():
+        values = getattr(problem.model, name)(state, inputs, problem.parameters)
+        data[name] = variable("time", np.broadcast_to(values, state.shape[1:]).copy(), unit, meaning, symbol)
+    total = data["kinetic_energy"][1] + data["potential_energy"][1]
+    data["total_energy"] = variable("time", total, "J", "kinetic and potential energy", "T + Π")
+    return data

@@ -1,0 +1,155 @@
+"""Bad input: a ValueError of one line that names the thing, its value, its unit and what is allowed."""
+
+from __future__ import annotations
+
+from types import ModuleType
+
+import numpy as np
+import pytest
+
+import delagrange as dl
+
+NAN, INF = float("nan"), float("inf")
+
+
+def _simulate(model="equal_biaxial", **options):
+    return lambda: dl.simulate(model, **({"duration": 1e-3} | options))
+
+
+def _sweep(model="equal_biaxial", **options):
+    defaults = {"frequency": [300.0, 301.0], "field_amplitude": 1e6, "duration": 1e-3}
+    return lambda: dl.frequency_response(model, **(defaults | options))
+
+
+CASES = {
+    "density zero": (_simulate(density=0.0), r"density must be positive and finite, got 0 kg/m\^3"),
+    "modulus nan": (_simulate(shear_modulus_alpha=NAN), "shear_modulus_alpha must be positive .* nan Pa"),
+    "relaxation time": (_simulate(relaxation_time=-1.0), "relaxation_time must be positive .* -1 s"),
+    "unknown parameter": (_simulate(viscocity=1.0), "unknown parameter 'viscocity'.*'viscosity'"),
+    "array parameter": (_simulate(density=[1.0, 2.0]), "density must be a single number"),
+    "parameters type": (_simulate(parameters={}), "parameters must be a delagrange.Parameters"),
+    "model": (_simulate("equibiaxial"), "unknown model 'equibiaxial'.*equal_biaxial.*known are"),
+    "model none": (_simulate(None), "unknown model None"),
+    "module": (_simulate(ModuleType("empty")), "'empty' is not a model: it lacks MODEL"),
+    "formulation": (
+        _simulate("pure_shear", formulation="x", held_stretch=2.0),
+        "formulation .*consistent, as_printed",
+    ),
+    "no formulation": (_simulate("uniaxial", formulation="as_printed"), "uniaxial comes in one formulation"),
+    "dashpot": (
+        _simulate("pure_shear", lateral_dashpot="loose", held_stretch=2.0),
+        "lateral_dashpot .* held, free",
+    ),
+    "printed dashpot": (
+        _simulate("pure_shear", formulation="as_printed", lateral_dashpot="free", held_stretch=2.0),
+        "lateral_dashpot of pure_shear as_printed must be one of held",
+    ),
+    "no dashpot": (
+        _simulate(lateral_dashpot="held"),
+        "lateral_dashpot 'held': equal_biaxial leaves no choice",
+    ),
+    "held missing": (_simulate("pure_shear"), "held_stretch .* missing: pure_shear_consistent needs it"),
+    "held refused": (_simulate(held_stretch=2.0), "held_stretch 2.0 .* equal_biaxial holds no stretch"),
+    "held negative": (_simulate("pure_shear", held_stretch=-2.0), "held_stretch must be positive .* -2"),
+    "force text": (_simulate(force="strong"), "force must be a number in N, got 'strong'"),
+    "force nan": (_simulate(force=NAN), "force must be finite, got nan N"),
+    "field inf": (_simulate(field=INF), "field must be finite, got inf V/m"),
+    "force lanes": (_simulate(force=[0.1, 0.2]), "force must be a single number, got .* N"),
+    "duration zero": (_simulate(duration=0.0), "duration must be positive and finite, got 0 s"),
+    "duration nan": (_simulate(duration=NAN), "duration .* nan s"),
+    "rtol small": (_simulate(rtol=1e-15), "rtol must lie from 1e-13 to 0.01, got 1e-15"),
+    "rtol large": (_simulate(rtol=1.0), "rtol must lie"),
+    "atol zero": (_simulate(atol=0.0), "atol must lie from 1e-18"),
+    "method": (_simulate(method="RK4"), "method must be one of DOP853, .*'RK4'"),
+    "table short": (
+        _simulate(field=dl.Tabulated([0.0, 5e-4], [0.0, 1e6])),
+        "nominal_electric_field: the table covers 0 s to 0.0005 s .* 0 s to 0.001 s",
+    ),
+    "state length": (
+        _simulate(initial_state=[1.0, 0.0]),
+        r"initial_state must hold 3 values \(stretch \[1\]",
+    ),
+    "state sign": (_simulate(initial_state=[-1.0, 0.0, 1.0]), "initial_state stretch must be positive"),
+    "state nan": (_simulate(initial_state=[1.0, NAN, 1.0]), "initial_state must be finite"),
+    "time unsorted": (_simulate(time=[0.0, 5e-4, 2e-4]), "time must be strictly increasing"),
+    "time outside": (_simulate(time=[0.0, 2e-3]), "time must lie from 0 s to 0.001 s"),
+    "time twice": (_simulate(time=[0.0], samples=5), "time and samples = 5 both given"),
+    "samples": (_simulate(samples=1), "samples must be an integer of at least 2, got 1"),
+    "frequency empty": (_sweep(frequency=[]), "frequency must be .* at least one value in Hz"),
+    "frequency unsorted": (
+        _sweep(frequency=[400.0, 300.0]),
+        "frequency must be strictly increasing, got .* Hz",
+    ),
+    "frequency repeated": (_sweep(frequency=[300.0, 300.0]), "frequency must be strictly increasing"),
+    "frequency zero": (_sweep(frequency=[0.0, 300.0]), "frequency must be positive .* Hz"),
+    "frequency nan": (_sweep(frequency=[300.0, NAN]), "frequency must be finite"),
+    "frequency table": (_sweep(frequency=[[300.0], [400.0]]), "frequency must be a one-dimensional grid"),
+    "force twice": (_sweep(force=[0.1, 0.1]), "force must not hold a value twice"),
+    "force empty": (_sweep(force=[]), "force must be one value or a one-dimensional grid"),
+    "force none": (_sweep(force=None), "force must be a number in N, got None"),
+    "amplitude none": (_sweep(field_amplitude=None), "field_amplitude must be a number in V/m"),
+    "sweep density": (
+        _sweep(density=[1e3, -1e3]),
+        r"density must be positive and finite, got \[1000, -1000\] kg/m\^3",
+    ),
+    "sweep unknown": (_sweep(densty=[1e3, 2e3]), "unknown parameter 'densty'.*'density'"),
+    "sweep both": (_sweep(viscosity=1.0, relaxation_time=[1.0, 2.0]), "viscosity .* both given"),
+    "sweep held": (_sweep(held_stretch=[2.0, 3.0]), "held_stretch .* equal_biaxial holds no stretch"),
+    "sweep held missing": (_sweep("pure_shear"), "held_stretch .* missing"),
+    "window": (_sweep(window=(0.0, 2e-3)), "window must be .* 0.001 s"),
+    "window order": (_sweep(window=(5e-4, 1e-4)), "window must be strictly increasing"),
+    "sweep method": (_sweep(method="Radau"), "method must be one of DOP853, RK45"),
+    "engine": (_sweep(engine="fortran"), "engine must be one of numpy, scipy"),
+    "control": (_sweep(step_control="pi"), "step_control must be one of scipy, ode45"),
+    "control pair": (_sweep(step_control="ode45"), "step_control 'ode45' belongs to method 'RK45'"),
+    "extrema": (_sweep(extrema="best"), "extrema must be one of dense, samples, steps"),
+    "engine pair": (_sweep(engine="scipy", extrema="steps"), "engine 'scipy' has .* only"),
+    "sweep rtol": (_sweep(rtol=0.0), "rtol must lie"),
+    "sweep table": (_sweep(force=dl.Tabulated([0.0, 5e-4], [0.0, 0.1])), "force: the table covers"),
+    "limits": (lambda: dl.Limits(smallest_stretch=2.0), "smallest_stretch below 1"),
+    "limits sign": (lambda: dl.Limits(largest_stretch=-1.0), "largest_stretch must be positive"),
+}
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_refused_with_one_line_that_helps(case):
+    call, message = CASES[case]
+    with pytest.raises(ValueError, match=message) as caught:
+        call()
+    assert "\n" not in str(caught.value)
+
+
+def _model_without(*names: str) -> ModuleType:
+    """The equal-biaxial model with some inputs taken out of its list, as a model of one's own may be."""
+    source = dl.load_model("equal_biaxial")
+    module = ModuleType("unforced")
+    vars(module).update({name: value for name, value in vars(source).items() if not name.startswith("__")})
+    module.MODEL = "unforced"
+    module.INPUTS = tuple(entry for entry in source.INPUTS if entry.name not in names)
+    module.rhs = lambda state, inputs, parameters: source.rhs(state, (0.0, *inputs), parameters)
+    module.principal_stretches = lambda state, inputs, parameters: source.principal_stretches(
+        state, (0.0, *inputs), parameters
+    )
+    return module
+
+
+def test_a_force_where_the_model_has_none():
+    unforced = _model_without("force")
+    with pytest.raises(
+        ValueError, match=r"force given as Constant\(value=0.5\), but unforced has no such input"
+    ):
+        dl.simulate(unforced, force=0.5, duration=1e-3)
+    run = dl.simulate(unforced, field=1e6, duration=1e-3)
+    same = dl.simulate("equal_biaxial", field=1e6, duration=1e-3)
+    np.testing.assert_array_equal(run["stretch"], same["stretch"])
+    assert "force" not in run
+
+
+def test_hyphens_full_names_and_modules_are_accepted():
+    from delagrange.generated import pure_shear_as_printed
+
+    for given in ("pure-shear-as-printed", "pure_shear_as_printed", pure_shear_as_printed):
+        assert dl.load_model(given) is pure_shear_as_printed
+    assert dl.load_model("pure-shear", formulation="as-printed") is pure_shear_as_printed
+    assert dl.load_model("pure_shear").MODEL == "pure_shear_consistent"
+    assert set(dl.model_names()) >= {"equal_biaxial", "uniaxial", "pure_shear_consistent_free"}
