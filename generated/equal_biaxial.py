@@ -77,6 +77,8 @@ REACTIONS = ()
 
 def _stack(shape, *entries):
     """Broadcast the entries against each other and put them along new leading axes."""
+    if not any(isinstance(entry, np.ndarray) and entry.ndim for entry in entries):
+        return np.array(entries).reshape(shape)
     entries = np.broadcast_arrays(*entries)
     return np.stack(entries).reshape(*shape, *entries[0].shape)
 

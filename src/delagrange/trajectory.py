@@ -44,7 +44,7 @@ class Stride:
     start: float  # [s]
     stop: float  # [s]
     state: np.ndarray  # (n_state,), at `stop`
-    dense: Callable[[np.ndarray], np.ndarray] | None  # state at times inside; None if the solver got stuck
+    dense: Callable[[np.ndarray], np.ndarray] | None  # state at times inside, until the next step; None if stuck
     status: int  # COMPLETED while all is well
 
 
@@ -126,8 +126,11 @@ def _stepped(solver: OdeSolver) -> bool:
 
 
 def _cut_at_loss(problem: Problem, solver: OdeSolver, limits: Limits) -> Stride:
-    dense = solver.dense_output()
     start, stop = float(solver.t_old), float(solver.t)
+
+    def dense(times: np.ndarray) -> np.ndarray:
+        return solver.dense_output()(times)  # made when asked for: most steps hold no sample
+
     if _distance(problem, stop, solver.y, limits) > 0:
         return Stride(start, stop, solver.y, dense, loss.COMPLETED)
     lost = brentq(

@@ -1,0 +1,80 @@
+"""The main job: derive, check, emit, integrate, draw, and the tables of verdicts, numbers and statements."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+
+from rich.console import Console
+
+from delagrange.figures.gallery import draw_figures
+from delagrange.files import prepare_folder
+from delagrange.reproduction.all_runs import all_runs
+from delagrange.reproduction.numbers import compare_peaks
+from delagrange.reproduction.statements import judge
+from delagrange.reproduction.tables import Table, numbers_table, statements_table
+
+
+def reproduce(out: Path, progress: bool = True) -> int:
+    """Walk the whole road and write what it gives under `out`.
+
+    Returns:
+        0, or 1 where a verdict departs from its record or a generated module is stale.
+
+    Raises:
+        ValueError: `out` cannot be written.
+    """
+    console = Console(stderr=True, quiet=not progress)
+    began = time.monotonic()
+    prepare_folder(out)
+
+    console.rule("derive, check, emit")
+    verdicts, status = _derive(console)
+
+    console.rule("integrate")
+    runs = all_runs(out / "data", progress=progress)
+
+    console.rule("draw")
+    figures = draw_figures(runs, out / "figures", progress=progress)
+
+    console.rule("compare")
+    with console.status("integrating the witnesses of the peaks ..."):
+        tables = (verdicts, numbers_table(compare_peaks(runs)), statements_table(judge(runs)))
+    report = _write(tables, out)
+    screen = Console()
+    for table in tables:
+        screen.print(table.rich())
+    screen.print(
+        f"{len(figures)} files of figures in {out / 'figures'}; tables in {report} and beside it as CSV"
+    )
+    screen.print(f"{time.monotonic() - began:.0f} s")
+    return status
+
+
+def _derive(console: Console) -> tuple[Table, int]:
+    """Verdicts, and whether all is as recorded and checked in."""
+    from importlib import resources
+
+    from delagrange.derive import pipeline
+    from delagrange.derive.record import departures, recorded
+    from delagrange.derive.report import HEADINGS, rows
+
+    with console.status("deriving ..."):
+        walked = pipeline.walk()
+    departed = departures(walked.verdicts, recorded())
+    stale = pipeline.stale(walked.modules, Path(str(resources.files("delagrange.generated"))))
+    for line in (*departed, *(f"generated module {name} is stale" for name in stale)):
+        console.print(f"[red]not as recorded:[/red] {line}")
+    caption = "Every printed equation against the derivation from Eqs. (1)-(6)."
+    table = Table(
+        "verdicts", "Printed equations against the derivation", HEADINGS, rows(walked.verdicts), caption
+    )
+    return table, 1 if departed or stale else 0
+
+
+def _write(tables: tuple[Table, ...], out: Path) -> Path:
+    report = out / "report.md"
+    report.write_text("\n".join(table.markdown() for table in tables), encoding="utf-8")
+    for table in tables:
+        (out / f"{table.name}.csv").write_text(table.csv(), encoding="utf-8")
+    return report

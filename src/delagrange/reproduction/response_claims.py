@@ -1,0 +1,116 @@
+"""What the paper says of its amplitude-frequency curves, as tests on computed ones."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+import xarray as xr
+
+from delagrange.models import load_model
+from delagrange.parameters import SHENG_2015
+from delagrange.reproduction import measures
+from delagrange.reproduction.all_runs import Runs
+from delagrange.reproduction.cases import RESPONSES, Load
+from delagrange.reproduction.claim import Claim
+from delagrange.reproduction.numbers import Found, found_peak
+from delagrange.reproduction.responses import curve
+
+_RESPONSE = {figure.model: figure for figure in RESPONSES}
+
+
+def _panel_peaks(runs: Runs, model: str, formulation: str | None, letter: str) -> list[Found]:
+    figure = _RESPONSE[model]
+    panel = next(panel for panel in figure.panels if panel.letter == letter)
+    response = runs.response(figure.number, formulation)
+    return [found_peak(response, load) for load in panel.loads]
+
+
+def rising(values: list[float]) -> bool:
+    """Never falling, and higher at the end; a step may be lost in the grid of the frequencies."""
+    return values[-1] > values[0] and all(b >= a for a, b in pairwise(values))
+
+
+def _peaks_text(peaks: list[Found]) -> str:
+    return ", ".join(f"{peak.amplitude:.4g} at {peak.frequency:g} Hz" for peak in peaks)
+
+
+def resonance(model: str, letter: str, *, rises: bool) -> Claim:
+    """The resonant frequency rises, or falls, along the curves of a panel."""
+
+    def test(runs: Runs, formulation: str | None) -> tuple[bool, str]:
+        peaks = _panel_peaks(runs, model, formulation, letter)
+        return rising([peak.frequency if rises else -peak.frequency for peak in peaks]), _peaks_text(peaks)
+
+    return test
+
+
+def peak_rises(model: str, letter: str) -> Claim:
+    """The peak amplitude rises along the curves of a panel."""
+
+    def test(runs: Runs, formulation: str | None) -> tuple[bool, str]:
+        peaks = _panel_peaks(runs, model, formulation, letter)
+        return rising([peak.amplitude for peak in peaks]), _peaks_text(peaks)
+
+    return test
+
+
+def field_moves_resonance_less(model: str) -> Claim:
+    """The resonance shifts less over the fields of panel b than over the forces of panel a."""
+
+    def test(runs: Runs, formulation: str | None) -> tuple[bool, str]:
+        shift = [
+            abs(peaks[-1].frequency - peaks[0].frequency)
+            for peaks in (_panel_peaks(runs, model, formulation, letter) for letter in "ab")
+        ]
+        return shift[1] < shift[0], f"by {shift[1]:g} Hz over the fields, {shift[0]:g} Hz over the forces"
+
+    return test
+
+
+def many_modes(runs: Runs, formulation: str | None) -> tuple[bool, str]:
+    """Every curve has more than one peak that stands out by a tenth of the curve's range."""
+    figure = _RESPONSE["uniaxial"]
+    response = runs.response(figure.number, formulation)
+    counts = [measures.mode_count(curve(response, load)["amplitude"].values) for load in figure.loads]
+    return min(
+        counts
+    ) > 1, f"{min(counts)} to {max(counts)} peaks a curve (prominence over 10 % of its range)"
+
+
+def grows_large(runs: Runs, formulation: str | None) -> tuple[bool, str]:
+    """The largest field more than doubles the peak of the smallest."""
+    peaks = _panel_peaks(runs, "pure_shear", formulation, "b")
+    return peaks[-1].amplitude > 2 * peaks[0].amplitude, _peaks_text(peaks)
+
+
+def _away_from_resonance(response: xr.Dataset, load: Load) -> float:
+    """Median amplitude further than 20 % from the resonant frequency."""
+    one = curve(response, load)
+    resonance = found_peak(response, load).frequency
+    away = one.where(np.abs(one["frequency"] - resonance) > 0.2 * resonance, drop=True)
+    return float(away["amplitude"].median())
+
+
+def held_stretch_reduces_away(runs: Runs, formulation: str | None) -> tuple[bool, str]:
+    """Away from resonance the amplitude falls with the held stretch."""
+    figure = _RESPONSE["pure_shear"]
+    response = runs.response(figure.number, formulation)
+    loads = next(panel for panel in figure.panels if panel.letter == "c").loads
+    values = [_away_from_resonance(response, load) for load in loads]
+    text = ", ".join(f"{value:.3g}" for value in values)
+    return rising([-value for value in values]), f"median amplitude {text} at held stretches 2, 3, 4"
+
+
+def reaction_grows(runs: Runs, formulation: str | None) -> tuple[bool, str]:
+    """Static reaction at the reference state of each held stretch, no field."""
+    model = load_model("pure_shear", formulation)
+    values = []
+    for held in (2.0, 3.0, 4.0):
+        parameters = [
+            held if v.name == "held_stretch" else getattr(SHENG_2015, v.name) for v in model.PARAMETERS
+        ]
+        values.append(
+            float(model.reaction_forces(model.reference_state(parameters), (0.1, 0.0), parameters)[0])
+        )
+    return rising(values), f"{', '.join(f'{value:.3g}' for value in values)} N at held stretches 2, 3, 4"
