@@ -1,4 +1,7 @@
-"""Write the tables of the README from what `delagrange reproduce` found: `python -m delagrange.reproduction.readme out`."""
+"""The tables of the README, from what `delagrange reproduce` found in a folder.
+
+`python -m delagrange.reproduction.readme out` writes them into README.md.
+"""
 
 from __future__ import annotations
 
