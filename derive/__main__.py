@@ -10,9 +10,9 @@ import sys
 from importlib import resources
 from pathlib import Path
 
-from . import pipeline
-from .record import RECORD, departures, recorded, to_json
-from .report import as_text, summary
+from delagrange.derive import pipeline
+from delagrange.derive.record import RECORD, departures, recorded, to_json
+from delagrange.derive.report import as_text, summary
 
 
 def _options(arguments: list[str] | None) -> argparse.Namespace:

@@ -14,9 +14,9 @@ from random import Random
 import mpmath
 import sympy as sp
 
-from .derived_equations import DerivedEquation
-from .printed_tree import Equation
-from .printed_values import evaluate, evaluate_roughly, to_sympy
+from delagrange.derive.derived_equations import DerivedEquation
+from delagrange.derive.printed_tree import Equation
+from delagrange.derive.printed_values import evaluate, evaluate_roughly, to_sympy
 
 _DIGITS = 50
 _ZERO = mpmath.mpf(10) ** -35  # relative to the size of the terms

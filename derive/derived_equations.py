@@ -7,10 +7,16 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from . import symbols as s
-from .dimensions import Dimension, DimensionError, TermDimension, check_terms, symbol_dimensions
-from .euler_lagrange import EquationsOfMotion
-from .symbols import Quantity
+from delagrange.derive import symbols as s
+from delagrange.derive.dimensions import (
+    Dimension,
+    DimensionError,
+    TermDimension,
+    check_terms,
+    symbol_dimensions,
+)
+from delagrange.derive.euler_lagrange import EquationsOfMotion
+from delagrange.derive.symbols import Quantity
 
 
 @dataclass(frozen=True)

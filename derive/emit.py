@@ -13,10 +13,10 @@ import jinja2
 import jinja2.meta
 import sympy as sp
 
-from .kernel import Assignment, KernelFunction, KernelSpec
-from .printer import PAPER_TEXT, ExpressionPrinter
-from .symbols import Quantity
-from .verdict import Outcome, Verdict
+from delagrange.derive.kernel_spec import Assignment, KernelFunction, KernelSpec
+from delagrange.derive.printer import PAPER_TEXT, ExpressionPrinter
+from delagrange.derive.symbols import Quantity
+from delagrange.derive.verdict import Outcome, Verdict
 
 _WIDTH = 110
 _TEMPLATE = "numpy_module.py.jinja"

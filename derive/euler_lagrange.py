@@ -11,9 +11,9 @@ from dataclasses import dataclass, fields
 
 import sympy as sp
 
-from .load_cases import REACTION_IN_POTENTIAL, LoadCase
-from .membrane import Energies, Membrane, time_derivative
-from .symbols import Quantity, TimeDependent
+from delagrange.derive.load_cases import REACTION_IN_POTENTIAL, LoadCase
+from delagrange.derive.membrane import Energies, Membrane, time_derivative
+from delagrange.derive.symbols import Quantity, TimeDependent
 
 Substitution = Mapping[sp.Symbol, sp.Expr]
 

@@ -6,13 +6,13 @@ from collections.abc import Iterator
 
 import sympy as sp
 
-from .compare import Witness, compare, may_agree
-from .derived_equations import DerivedEquation
-from .edits import single_edits
-from .latex_tokens import Span
-from .printed_tree import Equation, Group, Node, Power, Product, Quotient, Sum
-from .printed_values import to_sympy
-from .printer import PAPER_TEXT
+from delagrange.derive.compare import Witness, compare, may_agree
+from delagrange.derive.derived_equations import DerivedEquation
+from delagrange.derive.edits import single_edits
+from delagrange.derive.latex_tokens import Span
+from delagrange.derive.printed_tree import Equation, Group, Node, Power, Product, Quotient, Sum
+from delagrange.derive.printed_values import to_sympy
+from delagrange.derive.printer import PAPER_TEXT
 
 Monomials = dict[sp.Expr, sp.Expr]  # what varies -> its number
 

@@ -1,92 +1,19 @@
-"""From equations to a language-neutral description of code.
+"""From equations to the description of a module.
 
-A `KernelSpec` says which functions a model module has, what each returns, and through which named
-intermediate values; it holds SymPy expressions, never text of a language. `emit` places it.
+Each function below says how one function of a model module is computed from named intermediate values.
 """
 
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterable
-from dataclasses import dataclass
 
 import sympy as sp
 
-from . import symbols as s
-from .euler_lagrange import EquationsOfMotion
-from .powers import share_powers
-from .shared import share_subexpressions
-from .symbols import Quantity
-from .verdict import Verdict
-
-_VOLUME = sp.Symbol("volume", positive=True)
-
-
-@dataclass(frozen=True)
-class Assignment:
-    """A named intermediate value."""
-
-    name: str
-    expression: sp.Expr
-    comment: str = ""
-
-
-@dataclass(frozen=True)
-class KernelFunction:
-    """A function of (state, inputs, parameters); `outputs` fill `shape` in row-major order."""
-
-    name: str
-    summary: str
-    unit: str
-    shape: tuple[int, ...]  # () for a scalar field
-    assignments: tuple[Assignment, ...]
-    outputs: tuple[sp.Expr, ...]
-    accelerations: tuple[str, ...] = ()  # names taken from rhs before anything else
-
-    def uses(self, name: str) -> bool:
-        expressions = (*(a.expression for a in self.assignments), *self.outputs)
-        return any(sp.Symbol(name) in expression.free_symbols for expression in expressions)
-
-
-@dataclass(frozen=True)
-class KernelSpec:
-    """A model module, whatever language it is written in."""
-
-    name: str
-    title: str
-    load_case: str
-    formulation: str
-    remark: str
-    coordinate_count: int
-    state: tuple[Quantity, ...]
-    inputs: tuple[Quantity, ...]
-    parameters: tuple[Quantity, ...]
-    reactions: tuple[Quantity, ...]
-    functions: tuple[KernelFunction, ...]
-    reference_state: tuple[sp.Expr, ...]
-    formulas: tuple[tuple[sp.Expr, sp.Expr], ...]  # governing equations, left = right, in the paper's symbols
-    verdicts: tuple[Verdict, ...]
-    digest: str
-
-
-def _named(expression: sp.Expr) -> sp.Expr:
-    """Replace the symbols of the algebra by the names that code uses."""
-    names = {
-        symbol: sp.Symbol(s.quantity_of(symbol).name) for symbol in expression.free_symbols if _known(symbol)
-    }
-    return expression.subs(names, simultaneous=True)
-
-
-def _known(symbol: sp.Symbol) -> bool:
-    return any(quantity.symbol == symbol for quantity in s.QUANTITIES)
-
-
-def _in_volume(expression: sp.Expr, volume: sp.Expr) -> sp.Expr:
-    """Write a product of the volume of the body as that: 8 H L^2 mu becomes volume * mu."""
-    quotient = expression / volume
-    lengths = [f for f in sp.Mul.make_args(quotient) if f.as_base_exp()[0] in volume.free_symbols]
-    whole = expression.is_Mul and all(length.as_base_exp()[1].is_positive for length in lengths)
-    return quotient * _VOLUME if whole else expression
+from delagrange.derive import symbols as s
+from delagrange.derive.euler_lagrange import EquationsOfMotion
+from delagrange.derive.kernel_function import kernel_function, named
+from delagrange.derive.kernel_spec import Assignment, KernelFunction, KernelSpec
+from delagrange.derive.verdict import Verdict
 
 
 def _entry(name: str, *indices: int, size: int) -> str:
@@ -165,7 +92,7 @@ def _rhs(eom: EquationsOfMotion) -> KernelFunction:
     )
     moving = [*(c.rate for c in load_case.coordinates), *(c.acceleration for c in load_case.coordinates)]
     moving += [i.rate for i in load_case.internals]
-    return _function(
+    return kernel_function(
         eom,
         "rhs",
         "Time derivative of the state.",
@@ -183,57 +110,43 @@ def _rhs(eom: EquationsOfMotion) -> KernelFunction:
     )
 
 
+def _slopes(stem: str, matrix: sp.MatrixBase, comment: str) -> tuple[tuple[Assignment, ...], sp.Matrix]:
+    """A name for every entry of a matrix that is not zero, and the matrix in those names."""
+    names = sp.Matrix(
+        matrix.rows,
+        matrix.cols,
+        lambda row, column: (
+            sp.Symbol(f"{stem}_{row + 1}_{column + 1}") if matrix[row, column] != 0 else sp.S.Zero
+        ),
+    )
+    entries = [(name.name, value) for name, value in zip(names, matrix, strict=True) if value != 0]
+    assignments = tuple(
+        Assignment(name, value, comment if number == 0 else "")
+        for number, (name, value) in enumerate(entries)
+    )
+    return assignments, names
+
+
 def _jacobian(eom: EquationsOfMotion) -> KernelFunction:
-    """Rows of the accelerations through the mass matrix by name; the others as derived."""
+    """Rows of the accelerations through the mass matrix by name; those of the dashpots as derived."""
     n, size = eom.mass_matrix.rows, len(eom.state)
-    unbalanced = eom.unbalanced_jacobian
-    named = [
-        [
-            sp.Symbol(f"force_slope_{row + 1}_{column + 1}") if unbalanced[row, column] != 0 else sp.S.Zero
-            for column in range(size)
-        ]
-        for row in range(n)
-    ]
-    slopes = tuple(
-        Assignment(
-            f"force_slope_{row + 1}_{column + 1}",
-            unbalanced[row, column],
-            "slope of (net force - mass matrix times acceleration) with respect to the state"
-            if (row, column) == (0, 0)
-            else "",
-        )
-        for row in range(n)
-        for column in range(size)
-        if unbalanced[row, column] != 0
+    forces, force_slopes = _slopes(
+        "force_slope",
+        eom.unbalanced_jacobian,
+        "slope of (net force - mass matrix times acceleration) with respect to the state",
     )
-    accelerations = _solved(n, sp.Matrix(named))
-    dashpots = tuple(
-        Assignment(
-            f"dashpot_slope_{row - 2 * n + 1}_{column + 1}",
-            eom.jacobian[row, column],
-            "slope of the dashpot rates with respect to the state" if (row, column) == (2 * n, 0) else "",
-        )
-        for row in range(2 * n, size)
-        for column in range(size)
-        if eom.jacobian[row, column] != 0
+    dashpots, dashpot_slopes = _slopes(
+        "dashpot_slope", eom.jacobian[2 * n :, :], "slope of the dashpot rates with respect to the state"
     )
-    dashpot_names = {a.name for a in dashpots}
-
-    def entry(row: int, column: int) -> sp.Expr:
-        name = f"dashpot_slope_{row - 2 * n + 1}_{column + 1}"
-        if n <= row < 2 * n:
-            return accelerations[row - n, column]
-        return sp.Symbol(name) if name in dashpot_names else eom.jacobian[row, column]
-
-    rows = [entry(row, column) for row in range(size) for column in range(size)]
-    return _function(
+    rows = sp.Matrix.vstack(sp.Matrix(eom.jacobian[:n, :]), _solved(n, force_slopes), dashpot_slopes)
+    return kernel_function(
         eom,
         "jacobian",
         "Derivative of `rhs` with respect to the state; entry [i, j] is d rhs_i / d state_j.",
         "per second, times the unit of state i over that of state j",
         (size, size),
-        (*_mass_assignments(eom), *_determinant_assignment(n), *slopes, *dashpots),
-        rows,
+        (*_mass_assignments(eom), *_determinant_assignment(n), *forces, *dashpots),
+        list(rows),
         accelerations=tuple(c.acceleration.name for c in eom.load_case.coordinates),
     )
 
@@ -249,7 +162,7 @@ def _reactions(eom: EquationsOfMotion) -> tuple[KernelFunction, ...]:
         for reaction, force in zip(reactions, eom.reaction_forces, strict=True)
     )
     return (
-        _function(
+        kernel_function(
             eom,
             "reaction_forces",
             "Forces that hold the constrained axes"
@@ -266,7 +179,14 @@ def _reactions(eom: EquationsOfMotion) -> tuple[KernelFunction, ...]:
 def _scalar(
     eom: EquationsOfMotion, name: str, summary: str, unit: str, expression: sp.Expr
 ) -> KernelFunction:
-    return _function(eom, name, summary, unit, (), (), [expression])
+    return kernel_function(eom, name, summary, unit, (), (), [expression])
+
+
+def _mass(eom: EquationsOfMotion) -> KernelFunction:
+    shape, entries = eom.mass_matrix.shape, list(eom.mass_matrix)
+    return kernel_function(
+        eom, "mass_matrix", "Mass matrix of the coordinates.", "kg m^2", shape, (), entries
+    )
 
 
 def _potential(eom: EquationsOfMotion) -> KernelFunction:
@@ -277,7 +197,7 @@ def _potential(eom: EquationsOfMotion) -> KernelFunction:
         ("electrostatic_energy", eom.energies.electrostatic),
     )
     total = sp.Add(*(sp.Symbol(name) for name, _ in parts), evaluate=True)
-    return _function(
+    return kernel_function(
         eom,
         "potential_energy",
         "Potential energy of springs, applied forces and field.",
@@ -286,48 +206,6 @@ def _potential(eom: EquationsOfMotion) -> KernelFunction:
         tuple(Assignment(name, part) for name, part in parts),
         [total],
     )
-
-
-def _pairs(pairs: tuple[tuple[str, sp.Expr], ...], comment: str) -> tuple[Assignment, ...]:
-    return tuple(
-        Assignment(name, expression, comment if number == 0 else "")
-        for number, (name, expression) in enumerate(pairs)
-    )
-
-
-def _volume_assignment(expressions: Iterable[sp.Expr], volume: sp.Expr) -> tuple[Assignment, ...]:
-    used = any(_VOLUME in expression.free_symbols for expression in expressions)
-    return (Assignment("volume", _named(volume), "volume of the membrane [m^3]"),) if used else ()
-
-
-def _function(
-    eom: EquationsOfMotion,
-    name: str,
-    summary: str,
-    unit: str,
-    shape: tuple[int, ...],
-    assignments: Iterable[Assignment],
-    outputs: Iterable[sp.Expr],
-    *,
-    accelerations: tuple[str, ...] = (),
-) -> KernelFunction:
-    """Name symbols, the volume, and the powers of moving quantities, in the order of their use."""
-    assignments = tuple(assignments)
-    raw = (*(a.expression for a in assignments), *(sp.sympify(output) for output in outputs))
-    named = tuple(_named(_in_volume(expression, eom.membrane.volume)) for expression in raw)
-    powers, in_powers = share_powers(named, frozenset(quantity.name for quantity in eom.state))
-    constants = frozenset((_VOLUME.name, *(parameter.name for parameter in eom.parameters)))
-    common, expressions = share_subexpressions(in_powers, constants, frozenset(a.name for a in assignments))
-    shared = _pairs(powers, "powers of the state") + _pairs(common, "shared by what follows")
-    rewritten = tuple(
-        Assignment(a.name, expression, a.comment)
-        for a, expression in zip(assignments, expressions, strict=False)
-    )
-    return KernelFunction(
-        name, summary, unit, shape,
-        (*_volume_assignment(in_powers, eom.membrane.volume), *shared, *rewritten),
-        expressions[len(assignments):], accelerations,
-    )  # fmt: skip
 
 
 def reference_state(eom: EquationsOfMotion) -> tuple[sp.Expr, ...]:
@@ -340,7 +218,7 @@ def reference_state(eom: EquationsOfMotion) -> tuple[sp.Expr, ...]:
         for i in load_case.internals
     ]
     n = len(load_case.coordinates)
-    return tuple(_named(value) for value in (*[sp.Integer(1)] * n, *[sp.Integer(0)] * n, *relaxed))
+    return tuple(named(value) for value in (*[sp.Integer(1)] * n, *[sp.Integer(0)] * n, *relaxed))
 
 
 def _formulas(eom: EquationsOfMotion) -> tuple[tuple[sp.Expr, sp.Expr], ...]:
@@ -371,13 +249,13 @@ def kernel(eom: EquationsOfMotion, verdicts: tuple[Verdict, ...]) -> KernelSpec:
     functions = (
         _rhs(eom),
         _jacobian(eom),
-        _function(eom, "mass_matrix", "Mass matrix of the coordinates.", "kg m^2", (n, n), (), list(eom.mass_matrix)),
+        _mass(eom),
         _scalar(eom, "kinetic_energy", "Kinetic energy.", "J", eom.kinetic_energy),
         _potential(eom),
         _scalar(eom, "force_power", "Power that the applied forces put in.", "W", eom.force_power),
         _scalar(eom, "dashpot_power", "Power that the dashpots dissipate.", "W", eom.dashpot_power),
         *_reactions(eom),
-        _function(
+        kernel_function(
             eom,
             "principal_stretches", "Stretches along axes 1, 2 and through the thickness.", "1", (3,), (),
             eom.principal_stretches,

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 import sympy as sp
 
-from .euler_lagrange import EquationsOfMotion
+from delagrange.derive.euler_lagrange import EquationsOfMotion
 
 Function = Callable[[Sequence[Any], Sequence[Any], Sequence[Any]], np.ndarray]
 

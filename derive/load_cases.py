@@ -11,8 +11,8 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from . import symbols as s
-from .symbols import Quantity, TimeDependent
+from delagrange.derive import symbols as s
+from delagrange.derive.symbols import Quantity, TimeDependent
 
 CONSTRAINED_VARIATION = "consistent"
 REACTION_IN_POTENTIAL = "as_printed"

@@ -12,9 +12,9 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from . import symbols as s
-from .strain_energy import StrainEnergy, Stretches
-from .symbols import Quantity, TimeDependent
+from delagrange.derive import symbols as s
+from delagrange.derive.strain_energy import StrainEnergy, Stretches
+from delagrange.derive.symbols import Quantity, TimeDependent
 
 COORDINATES = (s.STRETCH_1, s.STRETCH_2)
 INTERNALS = (s.INELASTIC_STRETCH_1, s.INELASTIC_STRETCH_2)

@@ -5,17 +5,17 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from . import symbols as s
-from .derived_equations import check_dimensions, derived_equations
-from .emit import emit
-from .euler_lagrange import EquationsOfMotion, equations_of_motion
-from .kernel import kernel
-from .load_cases import BIAXIAL, EMITTED, LoadCase
-from .membrane import Membrane, membrane
-from .published.sheng_2015 import SHENG_2015
-from .strain_energy import neo_hookean
-from .verdict import Verdict
-from .verify import verify
+from delagrange.derive import symbols as s
+from delagrange.derive.derived_equations import check_dimensions, derived_equations
+from delagrange.derive.emit import emit
+from delagrange.derive.euler_lagrange import EquationsOfMotion, equations_of_motion
+from delagrange.derive.kernel import kernel
+from delagrange.derive.load_cases import BIAXIAL, EMITTED, LoadCase
+from delagrange.derive.membrane import Membrane, membrane
+from delagrange.derive.published.sheng_2015 import SHENG_2015
+from delagrange.derive.strain_energy import neo_hookean
+from delagrange.derive.verdict import Verdict
+from delagrange.derive.verify import verify
 
 
 @dataclass(frozen=True)

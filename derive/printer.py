@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from .symbols import quantity_of
+from delagrange.derive.symbols import quantity_of
 
 _SUM, _PRODUCT, _POWER, _ATOM = range(4)  # binding strength
 

@@ -7,8 +7,8 @@ from dataclasses import asdict
 from importlib import resources
 from typing import Any
 
-from .printer import PAPER_TEXT
-from .verdict import Outcome, Verdict
+from delagrange.derive.printer import PAPER_TEXT
+from delagrange.derive.verdict import Outcome, Verdict
 
 RECORD = "sheng_2015_verdicts.json"
 

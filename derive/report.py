@@ -3,11 +3,31 @@
 from __future__ import annotations
 
 import textwrap
+from itertools import takewhile
 
-from .printer import PAPER_TEXT
-from .verdict import Outcome, Verdict
+from delagrange.derive.printer import PAPER_TEXT
+from delagrange.derive.verdict import Outcome, Verdict
 
 HEADINGS = ("Eq.", "states", "derivation", "verdict", "detail")
+
+
+def _quoted(latex: tuple[str, ...]) -> str:
+    return " | ".join(f"`{term}`" for term in latex)
+
+
+def _mended(correction: str) -> str:
+    kind, _, change = correction.partition(": ")
+    before, _, after = change.partition(" -> ")
+    if kind == "bracket":
+        return f"the bracket closes behind `{_beyond(before, after)}`"
+    return f"{kind}, `{before}` becomes `{after}`"
+
+
+def _beyond(before: str, after: str) -> str:
+    """What a bracket that closes later takes in, or what one that closes earlier leaves inside."""
+    same = sum(1 for _ in takewhile(lambda pair: pair[0] == pair[1], zip(before, after, strict=False)))
+    inside, _, _ = after[same:].rpartition(r"\right")
+    return inside.strip() or after
 
 
 def detail(verdict: Verdict) -> str:
@@ -20,9 +40,9 @@ def detail(verdict: Verdict) -> str:
     if verdict.derived_unmatched:
         parts.append(f"derived, without partner: {' | '.join(verdict.derived_unmatched)}")
     if verdict.printed_unmatched:
-        parts.append(f"printed, without partner: {' | '.join(verdict.printed_unmatched)}")
+        parts.append(f"printed, without partner: {_quoted(verdict.printed_unmatched)}")
     if verdict.corrections:
-        parts.append(f"one edit mends it: {verdict.corrections[0]}")
+        parts.append(f"one edit mends it: {_mended(verdict.corrections[0])}")
     if verdict.unit_faults:
         parts.append(f"units: {' | '.join(verdict.unit_faults)}")
     if verdict.note:

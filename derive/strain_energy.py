@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from .symbols import Quantity
+from delagrange.derive.symbols import Quantity
 
 Stretches = tuple[sp.Expr, sp.Expr, sp.Expr]
 

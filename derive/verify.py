@@ -7,16 +7,16 @@ from dataclasses import replace
 
 import sympy as sp
 
-from .compare import Comparison, Witness, compare, witness
-from .derived_equations import DerivedEquation, derived_equations
-from .euler_lagrange import EquationsOfMotion
-from .explain import corrections, unmatched_terms
-from .printed_dimensions import check_printed
-from .printed_tree import Equation
-from .printer import PAPER_TEXT
-from .published import Paper, PrintedEquation
-from .symbols import QUANTITIES
-from .verdict import Outcome, Verdict
+from delagrange.derive.compare import Comparison, Witness, compare, witness
+from delagrange.derive.derived_equations import DerivedEquation, derived_equations
+from delagrange.derive.euler_lagrange import EquationsOfMotion
+from delagrange.derive.explain import corrections, unmatched_terms
+from delagrange.derive.printed_dimensions import check_printed
+from delagrange.derive.printed_tree import Equation
+from delagrange.derive.printer import PAPER_TEXT
+from delagrange.derive.published import Paper, PrintedEquation
+from delagrange.derive.symbols import QUANTITIES
+from delagrange.derive.verdict import Outcome, Verdict
 
 # Printed for the general membrane, i.e. before any load case
 _FAMILY = {"biaxial": "membrane"}

@@ -1,0 +1,61 @@
+"""A language-neutral description of a model module: SymPy expressions, never text of a language.
+
+A `KernelSpec` says which functions the module has, what each returns, and through which named
+intermediate values. `kernel` fills it; `emit` places it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import sympy as sp
+
+from delagrange.derive.symbols import Quantity
+from delagrange.derive.verdict import Verdict
+
+
+@dataclass(frozen=True)
+class Assignment:
+    """A named intermediate value."""
+
+    name: str
+    expression: sp.Expr
+    comment: str = ""
+
+
+@dataclass(frozen=True)
+class KernelFunction:
+    """A function of (state, inputs, parameters); `outputs` fill `shape` in row-major order."""
+
+    name: str
+    summary: str
+    unit: str
+    shape: tuple[int, ...]  # () for a scalar field
+    assignments: tuple[Assignment, ...]
+    outputs: tuple[sp.Expr, ...]
+    accelerations: tuple[str, ...] = ()  # names taken from rhs before anything else
+
+    def uses(self, name: str) -> bool:
+        expressions = (*(a.expression for a in self.assignments), *self.outputs)
+        return any(sp.Symbol(name) in expression.free_symbols for expression in expressions)
+
+
+@dataclass(frozen=True)
+class KernelSpec:
+    """A model module, whatever language it is written in."""
+
+    name: str
+    title: str
+    load_case: str
+    formulation: str
+    remark: str
+    coordinate_count: int
+    state: tuple[Quantity, ...]
+    inputs: tuple[Quantity, ...]
+    parameters: tuple[Quantity, ...]
+    reactions: tuple[Quantity, ...]
+    functions: tuple[KernelFunction, ...]
+    reference_state: tuple[sp.Expr, ...]
+    formulas: tuple[tuple[sp.Expr, sp.Expr], ...]  # governing equations, left = right, in the paper's symbols
+    verdicts: tuple[Verdict, ...]
+    digest: str
