@@ -5,7 +5,7 @@ OUT ?= out
 BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --constraint constraints.txt
 
-.PHONY: help reproduce test test-slow derive check-generated figures lint clean
+.PHONY: help reproduce test derive check-generated figures lint clean
 
 help:
 	@echo "make reproduce        derive, check, emit, integrate, draw; the table of printed and computed numbers"
@@ -13,7 +13,6 @@ help:
 	@echo "make derive           derive the equations, check the printed ones, write generated/"
 	@echo "make check-generated  regenerate aside and compare byte for byte"
 	@echo "make figures          Figs. 4-12 as PNG and PDF with their data, in $(OUT)/figures"
-	@echo "make test-slow        the tests that take minutes"
 
 $(VENV)/.python:
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
@@ -43,9 +42,6 @@ check-generated: $(VENV)/.installed
 
 test: $(VENV)/.tested lint check-generated
 	$(BIN)/python -m pytest --numprocesses auto
-
-test-slow: $(VENV)/.tested
-	$(BIN)/python -m pytest --numprocesses auto -m slow
 
 lint: $(VENV)/.tested
 	$(BIN)/ruff check .

@@ -1,6 +1,8 @@
 """`python -m delagrange.derive`: derive, check against the print, write the generated modules.
 
-With `--check` nothing is written: the modules are regenerated aside and compared byte for byte.
+Nothing is written where a verdict departs from its record; `--record` makes the verdicts found the
+recorded ones. With `--check` nothing is written at all: the modules are regenerated aside and
+compared byte for byte.
 """
 
 from __future__ import annotations
@@ -10,50 +12,83 @@ import sys
 from importlib import resources
 from pathlib import Path
 
-from delagrange.derive import pipeline
-from delagrange.derive.record import RECORD, departures, recorded, to_json
+from delagrange.derive import pipeline, record
+from delagrange.derive.pipeline import Walked
 from delagrange.derive.report import as_text, summary
 
 
 def _options(arguments: list[str] | None) -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="python -m delagrange.derive", description=__doc__)
-    parser.add_argument("--check", action="store_true", help="compare with what is checked in, write nothing")
-    parser.add_argument(
-        "--record", action="store_true", help="record the verdicts found as the expected ones"
-    )
-    parser.add_argument(
-        "--out", type=Path, default=_package("delagrange.generated"), help="folder of the modules"
-    )
+    one = parser.add_mutually_exclusive_group()
+    one.add_argument("--check", action="store_true", help="compare with what is checked in, write nothing")
+    one.add_argument("--record", action="store_true", help="record the verdicts found as the expected ones")
+    generated = Path(str(resources.files("delagrange.generated")))
+    parser.add_argument("--out", type=Path, default=generated, help="folder of the modules")
     return parser.parse_args(arguments)
 
 
-def _package(name: str) -> Path:
-    return Path(str(resources.files(name)))
-
-
 def main(arguments: list[str] | None = None) -> int:
-    """Exit status 0, or 1 where a verdict departs from its record or a module is stale."""
+    """Derive and check, then compare, record or write.
+
+    Returns:
+        The exit status: 0; 1 where a verdict departs from its record or the folder is not what the
+        derivation emits; 2, with one line on standard error, where something cannot be read,
+        derived, proved or written.
+    """
     options = _options(arguments)
+    try:
+        return _run(options)
+    except ValueError as error:
+        _complain(" ".join(str(error).split()))
+        return 2
+
+
+def _run(options: argparse.Namespace) -> int:
+    before = record.recorded()
     walked = pipeline.walk()
     print(as_text(walked.verdicts))
     print(f"\n{summary(walked.verdicts)}")
-    if options.record:
-        record = _package("delagrange.derive.published") / RECORD
-        record.write_text(to_json(walked.verdicts), encoding="utf-8")
-    departed = departures(walked.verdicts, recorded())
-    for line in departed:
-        print(f"not as recorded: {line}", file=sys.stderr)
+    departed = record.departures(walked.verdicts, before)
     if options.check:
-        old = pipeline.stale(walked.modules, options.out)
-        for name in old:
-            print(
-                f"stale: {options.out / name} is not what the derivation emits; run `make derive`",
-                file=sys.stderr,
-            )
-        return 1 if departed or old else 0
+        return _checked(walked, departed, options.out)
+    if departed and not options.record:
+        _complain_of(departed)
+        _complain("no module is written: the verdicts are not as recorded; `--record` records them")
+        return 1
     pipeline.write(walked.modules, options.out)
     print(f"{len(walked.modules)} modules in {options.out}")
-    return 1 if departed else 0
+    if options.record:
+        _record(walked, departed)
+    return 0
+
+
+def _checked(walked: Walked, departed: tuple[str, ...], folder: Path) -> int:
+    """Name each verdict and each file that is not as it should be."""
+    old, other = pipeline.stale(walked.modules, folder), pipeline.surplus(walked.modules, folder)
+    _complain_of(departed)
+    for name in old:
+        _complain(f"stale: {folder / name} is not what the derivation emits; run `make derive`")
+    for name in other:
+        _complain(f"surplus: {folder / name} holds what the derivation does not emit")
+    return 1 if departed or old or other else 0
+
+
+def _record(walked: Walked, departed: tuple[str, ...]) -> None:
+    """Make the verdicts found the recorded ones, and say what that changes."""
+    path = record.record_path()
+    pipeline.write(((path.name, record.to_json(walked.verdicts)),), path.parent)
+    for line in departed:
+        print(f"changed in the record: {line}")
+    print(f"{len(walked.verdicts)} verdicts recorded, changes: {len(departed)}")
+
+
+def _complain_of(departed: tuple[str, ...]) -> None:
+    for line in departed:
+        _complain(f"not as recorded: {line}")
+
+
+def _complain(line: str) -> None:
+    print(line, file=sys.stderr)
 
 
 if __name__ == "__main__":

@@ -17,6 +17,7 @@ import sympy as sp
 from delagrange.derive.derived_equations import DerivedEquation
 from delagrange.derive.printed_tree import Equation
 from delagrange.derive.printed_values import evaluate, evaluate_roughly, to_sympy
+from delagrange.derive.printer import PAPER_TEXT
 
 _DIGITS = 50
 _ZERO = mpmath.mpf(10) ** -35  # relative to the size of the terms
@@ -27,14 +28,11 @@ _SEED = 20150225
 
 @dataclass(frozen=True)
 class Comparison:
-    """`printed = factor * derived`, or not."""
+    """`printed = factor * derived`, or not, and then for what reason if it is not plainly another equation."""
 
     equal: bool
-    factor: sp.Expr  # ratio of the coefficients of the unknown; meaningful where it exists
-
-
-class UnprovedEqualityError(RuntimeError):
-    """Zero at random points in high precision, yet not proved: a case for a person."""
+    factor: sp.Expr  # ratio of the coefficients of the unknown; 0 where nothing makes the two equal
+    reason: str = ""
 
 
 Point = Mapping[sp.Symbol, mpmath.mpf]
@@ -138,27 +136,35 @@ def printed_residual(tree: Equation) -> sp.Expr:
 def scaling(tree: Equation, derived: DerivedEquation) -> sp.Expr:
     """What the derived equation has to be multiplied by to become the printed one; 0 where nothing does."""
     unknown = derived.unknown.symbol
-    ratio = sp.factor(
-        sp.cancel(sp.together(printed_residual(tree).diff(unknown) / derived.residual.diff(unknown)))
-    )
-    return sp.S.Zero if ratio.has(unknown) else ratio
+    slope = printed_residual(tree).diff(unknown)
+    ratio = sp.factor(sp.cancel(sp.together(slope / derived.residual.diff(unknown))))
+    return sp.S.Zero if ratio.has(unknown, sp.zoo, sp.nan) else ratio
 
 
 def _is_zero(expression: sp.Expr) -> bool:
     return sp.expand(sp.numer(sp.together(expression))) == 0
 
 
-def compare(tree: Equation, subject: Witness) -> Comparison:
-    """Compare a printed equation with a derived one.
+def _why_not(tree: Equation, subject: Witness) -> str:
+    """A reason for the difference that its terms do not show."""
+    unknown = subject.derived.unknown
+    residual = printed_residual(tree)
+    if not residual.has(unknown.symbol):
+        return f"{unknown.text} does not stand in it"
+    if residual.diff(unknown.symbol, 2) != 0:
+        return f"it is not linear in {unknown.text}, as the derived one is"
+    return ""
 
-    Raises:
-        UnprovedEqualityError: the numbers agree to 35 digits but the proof fails.
-    """
-    factor = scaling(tree, subject.derived)
+
+def compare(tree: Equation, subject: Witness) -> Comparison:
+    """Compare a printed equation with a derived one: equal, equal after scaling, or not."""
     if not agrees_numerically(tree, subject):
-        return Comparison(False, factor)
-    if factor.is_nonzero and _is_zero(printed_residual(tree) - factor * subject.derived.residual):
-        return Comparison(True, factor)
-    raise UnprovedEqualityError(
-        f"Eq. ({tree.number}) agrees with {subject.derived.model} in numbers, without proof"
-    )
+        return Comparison(False, sp.S.Zero, _why_not(tree, subject))
+    factor = scaling(tree, subject.derived)
+    if factor == 0 or not _is_zero(printed_residual(tree) - factor * subject.derived.residual):
+        return Comparison(False, factor, "it agrees in numbers to 35 digits, but no proof of it was found")
+    if not factor.is_nonzero:
+        return Comparison(
+            False, factor, f"it is the derived one times {PAPER_TEXT(factor)}, which can vanish"
+        )
+    return Comparison(True, factor)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, fields
+from itertools import product
 
 import sympy as sp
 
@@ -29,17 +30,25 @@ class DerivedEquation:
     residual: sp.Expr
 
 
+@dataclass(frozen=True)
+class _Made:
+    """One expression of a model, its name in messages, and the dimension that it has to have."""
+
+    name: str
+    expression: sp.Expr
+    dimension: Dimension
+
+
 def derived_equations(eom: EquationsOfMotion) -> Mapping[str, DerivedEquation]:
     """Every equation that one model gives, by the name of what it states."""
     load_case = eom.load_case
     stated: dict[str, tuple[Quantity, sp.Expr]] = {
         "kinetic_energy": (s.KINETIC_ENERGY, s.KINETIC_ENERGY.symbol - eom.kinetic_energy),
         "potential_energy": (s.POTENTIAL_ENERGY, s.POTENTIAL_ENERGY.symbol - eom.potential_energy),
-        "potential_with_reactions": (
-            s.POTENTIAL_ENERGY,
-            s.POTENTIAL_ENERGY.symbol - eom.potential_with_reactions,
-        ),
     }
+    if load_case.reactions:
+        residual = s.POTENTIAL_ENERGY.symbol - eom.potential_with_reactions
+        stated["potential_with_reactions"] = (s.POTENTIAL_ENERGY, residual)
     for number, (c, residual) in enumerate(zip(load_case.coordinates, eom.residuals, strict=True), start=1):
         stated[f"equation_of_motion_{number}"] = (c.acceleration, residual)
     for number, (i, rate) in enumerate(zip(load_case.internals, eom.internal_rates, strict=True), start=1):
@@ -59,13 +68,71 @@ def check_dimensions(equation: DerivedEquation) -> tuple[TermDimension, ...]:
         DimensionError: a term has not the dimension of the others, or all of them not that of a
             residual that the unknown makes: J for an equation of motion, the unknown's unit else.
     """
-    terms = check_terms(sp.expand(equation.residual), symbol_dimensions())
     unit = "J" if equation.quantity.startswith("equation_of_motion") else equation.unknown.unit
-    expected = Dimension.of_unit(unit)
-    if wrong := tuple(term for term in terms if term.dimension != expected):
+    made = _Made(equation.quantity, sp.expand(equation.residual), Dimension.of_unit(unit))
+    return _check(equation.model, made, symbol_dimensions())
+
+
+def check_model_dimensions(eom: EquationsOfMotion) -> int:
+    """Check every part of a model that a module is emitted from, and say how many there are.
+
+    These are the energies [J], the mass matrix [kg m^2], the forces [J], the powers [W], the
+    stresses on the dashpots [Pa], the reactions [N], the flow of the internal variables [1/s] and
+    the Jacobian, whose entry (i, j) has the unit of the rate of state i over that of state j.
+
+    Raises:
+        DimensionError: a term has another unit; the message has the model, the part and the term.
+    """
+    dimensions = symbol_dimensions()
+    parts = [made for made in _parts(eom) if made.expression != 0]  # a zero has every unit
+    for made in parts:
+        _check(eom.load_case.name, made, dimensions)
+    return len(parts)
+
+
+def _parts(eom: EquationsOfMotion) -> Iterator[_Made]:
+    energy, power, force = (Dimension.of_unit(unit) for unit in ("J", "W", "N"))
+    yield _Made("kinetic_energy", eom.kinetic_energy, energy)
+    for part in fields(eom.energies):
+        yield _Made(f"potential_energy, {part.name}", getattr(eom.energies, part.name), energy)
+    yield from _entries("mass_matrix", eom.mass_matrix, Dimension.of_unit("kg m^2"))
+    for term in eom.force_terms:
+        yield from _entries(term.name, term.vector, energy)
+    yield from _numbered("internal_rate", eom.internal_rates, Dimension.of_unit("1/s"))
+    yield from _numbered("reaction_force", eom.reaction_forces, force)
+    yield from _numbered("static_reaction_force", eom.static_reaction_forces, force)
+    yield _Made("force_power", eom.force_power, power)
+    yield from _numbered("deviatoric_stress", eom.dissipation.deviators, Dimension.of_unit("Pa"))
+    yield _Made("dashpot_power", eom.dashpot_power, power)
+    yield from _jacobian_entries(eom)
+
+
+def _numbered(name: str, expressions: tuple[sp.Expr, ...], dimension: Dimension) -> Iterator[_Made]:
+    for number, expression in enumerate(expressions, start=1):
+        yield _Made(f"{name}_{number}", expression, dimension)
+
+
+def _entries(name: str, matrix: sp.ImmutableMatrix, dimension: Dimension) -> Iterator[_Made]:
+    for i, j in product(range(matrix.rows), range(matrix.cols)):
+        yield _Made(f"{name}[{i}, {j}]", matrix[i, j], dimension)
+
+
+def _jacobian_entries(eom: EquationsOfMotion) -> Iterator[_Made]:
+    state = tuple(Dimension.of_unit(quantity.unit) for quantity in eom.state)
+    second = Dimension.of_unit("s")
+    for (i, row), (j, column) in product(enumerate(state), repeat=2):
+        yield _Made(f"jacobian[{i}, {j}]", eom.jacobian[i, j], row / second / column)
+
+
+def _check(model: str, made: _Made, dimensions: Mapping[sp.Symbol, Dimension]) -> tuple[TermDimension, ...]:
+    try:
+        terms = check_terms(made.expression, dimensions)
+    except DimensionError as error:
+        raise DimensionError(f"{model}, {made.name}: {error}", error.terms) from error
+    if wrong := tuple(term for term in terms if term.dimension != made.dimension):
         raise DimensionError(
-            f"{equation.model}, {equation.quantity}: term {wrong[0].term} has dimension {wrong[0].dimension}, "
-            f"where {expected} is expected",
+            f"{model}, {made.name}: term {wrong[0].term} has dimension {wrong[0].dimension}, "
+            f"where {made.dimension} is expected",
             tuple(term.term for term in wrong),
         )
     return terms

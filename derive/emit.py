@@ -24,12 +24,27 @@ _TEMPLATE = "numpy_module.py.jinja"
 _NUMPY = ExpressionPrinter(lambda symbol: symbol.name, {sp.log: "np.log", sp.exp: "np.exp"})
 
 
-def _folded(text: str, indent: str) -> list[str]:
-    """A line inside brackets, folded at spaces where it is too long."""
-    return textwrap.wrap(
-        text, _WIDTH, initial_indent=indent, subsequent_indent=f"{indent}    ", break_long_words=False,
-        break_on_hyphens=False,
-    )  # fmt: skip
+def _folded(text: str, indent: str, times: str) -> list[str]:
+    """A term inside brackets, folded before factors where it is too long."""
+    first, *others = _factors(text, times)
+    lines = [f"{indent}{first}"]
+    for factor in others:
+        if len(lines[-1]) + len(times) + len(factor) > _WIDTH:
+            lines.append(f"{indent}    {times.lstrip()}{factor}")
+        else:
+            lines[-1] += f"{times}{factor}"
+    return lines
+
+
+def _factors(text: str, times: str) -> list[str]:
+    """The factors of a printed product that stand outside of brackets."""
+    pieces, depth, start = [], 0, 0
+    for place, character in enumerate(text):
+        depth += (character == "(") - (character == ")")
+        if depth == 0 and text.startswith(times, place) and times.strip():
+            pieces.append(text[start:place])
+            start = place + len(times)
+    return [*pieces, text[start:]]
 
 
 def _broken(head: str, expression: sp.Expr, printer: ExpressionPrinter, indent: str) -> list[str]:
@@ -46,7 +61,7 @@ def _broken_sum(head: str, expression: sp.Add, printer: ExpressionPrinter, inden
     """A term a line."""
     first, *others = printer.terms(expression)
     first = first[2:] if first.startswith("+ ") else "-" + first[2:]
-    body = [line for term in (first, *others) for line in _folded(term, f"{indent}    ")]
+    body = [line for term in (first, *others) for line in _folded(term, f"{indent}    ", printer.times)]
     return [f"{indent}{head}(", *body, f"{indent})"]
 
 
@@ -54,9 +69,15 @@ def _broken_product(head: str, expression: sp.Expr, printer: ExpressionPrinter, 
     """The factors on one line and the longest sum among them over the next; or folded, where there is none."""
     sums = [factor for factor in sp.Mul.make_args(expression) if isinstance(factor, sp.Add)]
     if not sums:
-        return [f"{indent}{head}(", *_folded(printer(expression), f"{indent}    "), f"{indent})"]
+        return [
+            f"{indent}{head}(",
+            *_folded(printer(expression), f"{indent}    ", printer.times),
+            f"{indent})",
+        ]
     longest = max(sums, key=lambda factor: len(printer(factor)))
-    return _broken_sum(f"{head}{printer(expression / longest)}{printer.times}", longest, printer, indent)
+    rest = expression / longest
+    before = printer(rest) if sp.denom(rest) == 1 else f"({printer(rest)})"
+    return _broken_sum(f"{head}{before}{printer.times}", longest, printer, indent)
 
 
 def _assignment_lines(assignment: Assignment) -> list[str]:
@@ -134,6 +155,10 @@ def _verdict_line(verdict: Verdict) -> str:
     return text
 
 
+def _as_float(value: sp.Expr) -> str:
+    return f"{value}.0" if value.is_Integer else _NUMPY(value)
+
+
 def _reference_names(spec: KernelSpec) -> list[str]:
     used = {symbol.name for value in spec.reference_state for symbol in value.free_symbols}
     return [quantity.name if quantity.name in used else "_" for quantity in spec.parameters]
@@ -164,7 +189,8 @@ def _view(spec: KernelSpec) -> dict[str, Any]:
         "reactions": spec.reactions,
         "functions": [_function_view(function, spec) for function in spec.functions],
         "reference_lines": "\n".join([] if set(names) == {"_"} else _unpacked(names, "parameters")),
-        "reference_state": ", ".join(_NUMPY(value) for value in spec.reference_state),
+        "reference_state": ", ".join(_as_float(value) for value in spec.reference_state),
+        "held": bool(any(value.free_symbols for value in spec.reference_state)) or spec.reactions != (),
         "state_size": len(spec.state),
     }
 

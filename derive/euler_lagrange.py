@@ -13,7 +13,7 @@ import sympy as sp
 
 from delagrange.derive.load_cases import REACTION_IN_POTENTIAL, LoadCase
 from delagrange.derive.membrane import Energies, Membrane, time_derivative
-from delagrange.derive.symbols import Quantity, TimeDependent
+from delagrange.derive.symbols import VISCOSITY, Quantity, TimeDependent
 
 Substitution = Mapping[sp.Symbol, sp.Expr]
 
@@ -25,6 +25,32 @@ class ForceTerm:
     name: str
     meaning: str
     vector: sp.ImmutableMatrix  # (n_coordinates, 1)  [J]
+
+
+@dataclass(frozen=True)
+class Dissipation:
+    """What the dashpots lose: deviatoric stresses [Pa] times strain rates [1/s], over the volume.
+
+    A dashpot that flows has its deviatoric stress over 2 eta as its strain rate, one whose inelastic stretch
+    is held has none; the third follows from incompressibility.
+    """
+
+    deviators: tuple[sp.Expr, sp.Expr, sp.Expr]
+    flowing: tuple[bool, bool]  # along axes 1, 2
+
+    def strain_rates(self, deviators: tuple[sp.Expr, ...]) -> tuple[sp.Expr, sp.Expr, sp.Expr]:
+        """Strain rates in terms of deviatoric stresses, given as expressions or as names."""
+        flow = [deviator / (2 * VISCOSITY.symbol) for deviator in deviators]
+        if all(self.flowing):
+            return flow[0], flow[1], flow[2]
+        first, second = (
+            rate if moves else sp.S.Zero for rate, moves in zip(flow, self.flowing, strict=False)
+        )
+        return first, second, -first - second
+
+    def power(self, volume: sp.Expr) -> sp.Expr:
+        pairs = zip(self.deviators, self.strain_rates(self.deviators), strict=True)
+        return volume * sp.Add(*(deviator * rate for deviator, rate in pairs))
 
 
 @dataclass(frozen=True)
@@ -49,13 +75,18 @@ class EquationsOfMotion:
     reaction_forces: tuple[sp.Expr, ...]  # in q, q', q'' [N]
     static_reaction_forces: tuple[sp.Expr, ...]  # the same at rest [N]
     force_power: sp.Expr  # power of the applied forces [W]
-    dashpot_power: sp.Expr  # power that the dashpots dissipate [W]
+    dissipation: Dissipation  # in the dashpots
     unbalanced_jacobian: sp.ImmutableMatrix  # d(F - M q'')/d state at fixed q'', (n_coordinates, n_state) [J]
     jacobian: sp.ImmutableMatrix  # of the first-order system, in the state, the inputs and q''
 
     @property
     def potential_energy(self) -> sp.Expr:
         return self.energies.total
+
+    @property
+    def dashpot_power(self) -> sp.Expr:
+        """Power that the dashpots dissipate [W]."""
+        return self.dissipation.power(self.membrane.volume)
 
     @property
     def force_vector(self) -> sp.ImmutableMatrix:
@@ -158,24 +189,28 @@ def at_rest(expression: sp.Expr, coordinates: tuple[TimeDependent, ...]) -> sp.E
 
 
 def _with_reaction_in_potential(
-    energies: Energies, reactions: tuple[Quantity, ...], static: tuple[sp.Expr, ...], model: Membrane
+    energies: Energies, model: Membrane, load_case: LoadCase, substitution: Substitution
 ) -> Energies:
-    """Eq. (20): the static reaction inserted into the potential, each of its parts beside its like."""
-    arm = sum(
-        (energies.forces.diff(r.symbol) * value for r, value in zip(reactions, static, strict=True)),
-        sp.S.Zero,
-    )
-    alpha, beta = ({p.symbol for p in material.parameters} for material in model.materials)
-    owners = {"spring_alpha": alpha, "spring_beta": beta, "electrostatic": {model.field.symbol}}
-    shares = dict.fromkeys(owners, sp.S.Zero)
-    for term in sp.Add.make_args(sp.expand(arm)):
-        owner = next(name for name, symbols in owners.items() if term.free_symbols & symbols)
-        shares[owner] += term
+    """Eq. (20): the static reaction inserted into the potential, each of its parts beside its like.
+
+    At rest the force on a held axis balances the slope of every other part of the potential, so that each
+    part brings its own share of the reaction.
+    """
+
+    def with_share(name: str) -> sp.Expr:
+        share = sp.S.Zero
+        for axis, reaction in _held_axes(load_case):
+            stretch, force = model.coordinates[axis].value.symbol, model.forces[axis].symbol
+            lever = model.energies.forces.diff(stretch, force)
+            slope = _constrain(getattr(model.energies, name).diff(stretch), substitution)
+            share -= energies.forces.diff(reaction.symbol) * slope / lever
+        return tidy(getattr(energies, name) + share)
+
     return Energies(
-        spring_alpha=tidy(energies.spring_alpha + shares["spring_alpha"]),
-        spring_beta=tidy(energies.spring_beta + shares["spring_beta"]),
-        forces=energies.forces.subs({r.symbol: 0 for r in reactions}),
-        electrostatic=tidy(energies.electrostatic + shares["electrostatic"]),
+        spring_alpha=with_share("spring_alpha"),
+        spring_beta=with_share("spring_beta"),
+        forces=energies.forces.subs({reaction.symbol: 0 for reaction in load_case.reactions}),
+        electrostatic=with_share("electrostatic"),
     )
 
 
@@ -190,22 +225,36 @@ def internal_rates(model: Membrane, load_case: LoadCase, substitution: Substitut
     """Flow of the inelastic stretches that the load case lets move [1/s], Eqs. (5)-(6).
 
     Raises:
-        ValueError: two axes share an inelastic stretch but their dashpots ask for different rates.
+        ValueError: the dashpots of two axes ask for different rates of one inelastic stretch, or one has
+            no rate at all.
     """
     laws = [tidy(_constrain(rate, substitution)) for rate in model.dashpot_rates]
-    rates = []
-    for internal in load_case.internals:
-        own = [
-            law
-            for law, xi in zip(laws, load_case.inelastic_stretches, strict=True)
-            if xi == internal.value.symbol
-        ]
-        if any(not _equal(own[0], other) for other in own[1:]):
+    rates = tuple(_rate_of(internal, laws, load_case) for internal in load_case.internals)
+    flow = {internal.rate.symbol: rate for internal, rate in zip(load_case.internals, rates, strict=True)}
+    for law, xi in zip(laws, load_case.inelastic_stretches, strict=True):
+        moving = [internal for internal in load_case.internals if xi.has(internal.value.symbol)]
+        if moving and not _equal(time_derivative(xi, load_case.internals).subs(flow), law):
             raise ValueError(
-                f"load case {load_case.name}: {internal.value.name} has two different dashpot rates"
+                f"load case {load_case.name}: {moving[0].value.name} has two different dashpot rates"
             )
-        rates.append(own[0])
-    return tuple(rates)
+    return rates
+
+
+def _rate_of(internal: TimeDependent, laws: list[sp.Expr], load_case: LoadCase) -> sp.Expr:
+    """From the first axis whose inelastic stretch it alone determines, by the chain rule."""
+    others = {other.value.symbol for other in load_case.internals} - {internal.value.symbol}
+    for law, xi in zip(laws, load_case.inelastic_stretches, strict=True):
+        slope = xi.diff(internal.value.symbol)
+        if slope != 0 and not xi.free_symbols & others:
+            return tidy(law / slope)
+    raise ValueError(f"load case {load_case.name}: {internal.value.name} has no dashpot rate of its own")
+
+
+def dissipation(model: Membrane, load_case: LoadCase, substitution: Substitution) -> Dissipation:
+    internals = {internal.value.symbol for internal in load_case.internals}
+    first, second, third = (tidy(_constrain(deviator, substitution)) for deviator in model.dashpot_deviators)
+    along_1, along_2 = (bool(xi.free_symbols & internals) for xi in load_case.inelastic_stretches)
+    return Dissipation((first, second, third), (along_1, along_2))
 
 
 # --- the first-order system ------------------------------------------------------------------------
@@ -222,17 +271,24 @@ def _generalised_force(potential: sp.Expr, coordinates: tuple[TimeDependent, ...
 
 
 def force_terms(
-    kinetic: sp.Expr, energies: Energies, coordinates: tuple[TimeDependent, ...]
+    kinetic: sp.Expr, energies: Energies, coordinates: tuple[TimeDependent, ...], remark: str = ""
 ) -> tuple[ForceTerm, ...]:
-    """The generalised force by physical origin [J]; M q'' is their sum."""
+    """The generalised force by physical origin [J]; M q'' is their sum.
+
+    `remark` is what must be said of the springs' and the field's share.
+    """
     no_acceleration = {c.acceleration.symbol: 0 for c in coordinates}
     inertia = [tidy(-residual.subs(no_acceleration)) for residual in euler_lagrange(kinetic, coordinates)]
     parts = (
         ("inertia_force", "the thickness inertia, quadratic in the rates", sp.ImmutableMatrix(inertia)),
-        ("spring_alpha_force", "spring α", _generalised_force(energies.spring_alpha, coordinates)),
-        ("spring_beta_force", "spring β", _generalised_force(energies.spring_beta, coordinates)),
+        ("spring_alpha_force", f"spring α{remark}", _generalised_force(energies.spring_alpha, coordinates)),
+        ("spring_beta_force", f"spring β{remark}", _generalised_force(energies.spring_beta, coordinates)),
         ("applied_force", "the applied forces", _generalised_force(energies.forces, coordinates)),
-        ("electric_force", "the Maxwell stress", _generalised_force(energies.electrostatic, coordinates)),
+        (
+            "electric_force",
+            f"the Maxwell stress{remark}",
+            _generalised_force(energies.electrostatic, coordinates),
+        ),
     )
     return tuple(ForceTerm(name, meaning, vector) for name, meaning, vector in parts)
 
@@ -281,15 +337,16 @@ def equations_of_motion(model: Membrane, load_case: LoadCase) -> EquationsOfMoti
     reactions = reaction_forces(model, load_case)
     static = tuple(tidy(at_rest(reaction, coordinates)) for reaction in reactions)
     if load_case.formulation == REACTION_IN_POTENTIAL:
-        energies = _with_reaction_in_potential(with_reactions, load_case.reactions, static, model)
+        energies = _with_reaction_in_potential(with_reactions, model, load_case, substitution)
     else:
         workless = {reaction.symbol: 0 for reaction in load_case.reactions}
         energies = _map_energies(with_reactions, lambda part: part.subs(workless))
     residuals = euler_lagrange(kinetic - energies.total, coordinates)
     mass = mass_matrix(residuals, coordinates)
-    forces = force_terms(kinetic, energies, coordinates)
+    inserted = load_case.formulation == REACTION_IN_POTENTIAL
+    remark = ", with its share of the inserted reaction" if inserted else ""
+    forces = force_terms(kinetic, energies, coordinates, remark)
     rates = internal_rates(model, load_case, substitution)
-    flow = {internal.rate.symbol: rate for internal, rate in zip(load_case.internals, rates, strict=True)}
     force = sum((term.vector for term in forces), sp.zeros(len(coordinates), 1))
     unbalanced = unbalanced_jacobian(mass, force, load_case)
     return EquationsOfMotion(
@@ -307,7 +364,7 @@ def equations_of_motion(model: Membrane, load_case: LoadCase) -> EquationsOfMoti
         reaction_forces=static if load_case.formulation == REACTION_IN_POTENTIAL else reactions,
         static_reaction_forces=static,
         force_power=force_power(energies, coordinates),
-        dashpot_power=tidy(_constrain(model.dashpot_power, substitution).subs(flow)),
+        dissipation=dissipation(model, load_case, substitution),
         unbalanced_jacobian=unbalanced,
         jacobian=first_order_jacobian(mass, unbalanced, rates, load_case),
     )

@@ -8,9 +8,19 @@ import sympy as sp
 
 from delagrange.derive.compare import Witness, compare, may_agree
 from delagrange.derive.derived_equations import DerivedEquation
-from delagrange.derive.edits import single_edits
+from delagrange.derive.edits import Edit, single_edits
 from delagrange.derive.latex_tokens import Span
-from delagrange.derive.printed_tree import Equation, Group, Node, Power, Product, Quotient, Sum
+from delagrange.derive.printed_tree import (
+    Equation,
+    Group,
+    Node,
+    Number,
+    Power,
+    Product,
+    Quotient,
+    Sum,
+    walk,
+)
 from delagrange.derive.printed_values import to_sympy
 from delagrange.derive.printer import PAPER_TEXT
 
@@ -79,9 +89,22 @@ def unmatched_terms(
 
 
 def corrections(tree: Equation, subject: Witness) -> tuple[str, ...]:
-    """The single edits of the printed equation that make it equal, each as kind, before and after."""
-    return tuple(
-        f"{edit.kind}: {edit.before} -> {edit.after}"
-        for edit in single_edits(tree, wide=True)
-        if may_agree(edit.equation, subject) and compare(edit.equation, subject).equal
-    )
+    """The single edits of the printed equation that make it equal, each as kind, before and after.
+
+    Smallest first: an edit of what is printed (a number, sign, exponent, index or bracket) comes
+    before one that inserts a number where none is printed, such as `x -> 2 x`; within each of the
+    two, coefficients come first, then signs, exponents, indices and brackets, in order of printing.
+    """
+    mending = (edit for edit in single_edits(tree, wide=True) if _mends(edit, subject))
+    printed = _count_numbers(tree)
+    ranked = sorted(mending, key=lambda edit: _count_numbers(edit.equation) > printed)
+    return tuple(str(edit) for edit in ranked)
+
+
+def _mends(edit: Edit, subject: Witness) -> bool:
+    """Whether an edit is proved to make the equation equal; what cannot be proved is no correction."""
+    return may_agree(edit.equation, subject) and compare(edit.equation, subject).equal
+
+
+def _count_numbers(tree: Equation) -> int:
+    return sum(isinstance(part, Number) for _, part in walk(tree))

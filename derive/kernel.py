@@ -13,6 +13,7 @@ from delagrange.derive import symbols as s
 from delagrange.derive.euler_lagrange import EquationsOfMotion
 from delagrange.derive.kernel_function import kernel_function, named
 from delagrange.derive.kernel_spec import Assignment, KernelFunction, KernelSpec
+from delagrange.derive.load_cases import REACTION_IN_POTENTIAL
 from delagrange.derive.verdict import Verdict
 
 
@@ -133,10 +134,10 @@ def _jacobian(eom: EquationsOfMotion) -> KernelFunction:
     forces, force_slopes = _slopes(
         "force_slope",
         eom.unbalanced_jacobian,
-        "slope of (net force - mass matrix times acceleration) with respect to the state",
+        "slope of (net force - mass matrix times acceleration), [J] per unit of the state",
     )
     dashpots, dashpot_slopes = _slopes(
-        "dashpot_slope", eom.jacobian[2 * n :, :], "slope of the dashpot rates with respect to the state"
+        "dashpot_slope", eom.jacobian[2 * n :, :], "slope of the dashpot rates, [1/s] per unit of the state"
     )
     rows = sp.Matrix.vstack(sp.Matrix(eom.jacobian[:n, :]), _solved(n, force_slopes), dashpot_slopes)
     return kernel_function(
@@ -189,6 +190,28 @@ def _mass(eom: EquationsOfMotion) -> KernelFunction:
     )
 
 
+def _dashpot_power(eom: EquationsOfMotion) -> KernelFunction:
+    """Stress times strain rate by name: what flows gives squares, which no rounding makes negative."""
+    stresses = tuple(sp.Symbol(f"deviatoric_stress_{axis}") for axis in (1, 2, 3))
+    rates = tuple(sp.Symbol(f"strain_rate_{axis}") for axis in (1, 2, 3))
+    assignments = (
+        *(
+            Assignment(name.name, value, "deviatoric stress on the dashpot [Pa]" if axis == 0 else "")
+            for axis, (name, value) in enumerate(zip(stresses, eom.dissipation.deviators, strict=True))
+        ),
+        *(
+            Assignment(name.name, value, "strain rate of the dashpot [1/s]" if axis == 0 else "")
+            for axis, (name, value) in enumerate(
+                zip(rates, eom.dissipation.strain_rates(stresses), strict=True)
+            )
+        ),
+    )
+    power = eom.membrane.volume * sp.Add(*(s * rate for s, rate in zip(stresses, rates, strict=True)))
+    return kernel_function(
+        eom, "dashpot_power", "Power that the dashpots dissipate.", "W", (), assignments, [power]
+    )
+
+
 def _potential(eom: EquationsOfMotion) -> KernelFunction:
     parts = (
         ("spring_alpha_energy", eom.energies.spring_alpha),
@@ -197,10 +220,12 @@ def _potential(eom: EquationsOfMotion) -> KernelFunction:
         ("electrostatic_energy", eom.energies.electrostatic),
     )
     total = sp.Add(*(sp.Symbol(name) for name, _ in parts), evaluate=True)
+    printed = eom.load_case.formulation == REACTION_IN_POTENTIAL
+    inserted = ", each with its share of the inserted reaction" if printed else ""
     return kernel_function(
         eom,
         "potential_energy",
-        "Potential energy of springs, applied forces and field.",
+        "Potential energy of springs, applied forces and field" + inserted + ".",
         "J",
         (),
         tuple(Assignment(name, part) for name, part in parts),
@@ -253,7 +278,7 @@ def kernel(eom: EquationsOfMotion, verdicts: tuple[Verdict, ...]) -> KernelSpec:
         _scalar(eom, "kinetic_energy", "Kinetic energy.", "J", eom.kinetic_energy),
         _potential(eom),
         _scalar(eom, "force_power", "Power that the applied forces put in.", "W", eom.force_power),
-        _scalar(eom, "dashpot_power", "Power that the dashpots dissipate.", "W", eom.dashpot_power),
+        _dashpot_power(eom),
         *_reactions(eom),
         kernel_function(
             eom,

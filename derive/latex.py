@@ -153,10 +153,17 @@ class _Reader:
         while self.token.text in _TIMES or self.starts_factor():
             if self.token.text in _TIMES:
                 self.advance()
-            elif self.token.kind == "number":
+            elif self.looks_at_number():
                 raise self.error("an operator before a number that follows a factor")
             factors.append(self.factor())
         return product_of(tuple(factors))
+
+    def looks_at_number(self) -> bool:
+        """Whether a number comes next, in braces or not: they do not show in print."""
+        ahead = self.at
+        while self.tokens[ahead].text == "{":
+            ahead += 1
+        return self.tokens[ahead].kind == "number"
 
     def starts_factor(self) -> bool:
         token = self.token
@@ -269,9 +276,15 @@ class _Reader:
         return Function("sqrt", argument, start.to(self.tokens[self.at - 1].span))
 
     def function(self) -> Function:
-        """Without brackets the argument is one factor, and nothing may follow it that could belong."""
+        """Without brackets the argument is one factor, and nothing may follow it that could belong.
+
+        An exponent behind the argument could belong to the argument or to the function: both
+        `\\ln(x)^2` and `\\ln x^2` are refused, `\\left(\\ln(x)\\right)^2` and `\\ln(x^2)` are read.
+        """
         command = self.advance()
         argument = self.factor()
+        if isinstance(argument, Power):
+            raise self.source.error(argument.span, "brackets that show what is raised to a power")
         if not isinstance(argument, Group) and self.starts_factor():
             raise self.error("brackets around the argument of a function")
         return Function(command.text[1:], argument, command.span.to(argument.span))

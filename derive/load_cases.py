@@ -124,7 +124,7 @@ PURE_SHEAR_AS_PRINTED = _pure_shear(
     REACTION_IN_POTENTIAL,
     lateral_dashpot_free=False,
     remark="The paper puts the reaction of the frame, Eq. (19), into the potential before the variation, Eq. (20). "
-    "A workless constraint does not allow that step: it triples two terms and turns the sign of the electric one. "
+    "A workless constraint does not allow that step. "
     "This module is for reproducing the paper; use pure_shear_consistent for mechanics. " + _HELD_DASHPOT,
 )
 

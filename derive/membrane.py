@@ -57,6 +57,7 @@ class Membrane:
     volume: sp.Expr  # of the body [m^3]
     kinetic_energy: sp.Expr  # T [J]
     energies: Energies  # parts of Pi [J]
+    dashpot_deviators: Stretches  # deviatoric stresses on the dashpot [Pa]
     dashpot_rates: tuple[sp.Expr, ...]  # d xi_i/dt [1/s]
     dashpot_power: sp.Expr  # dissipated power [W], in terms of the rates of xi_1, xi_2
 
@@ -124,13 +125,19 @@ def elastic_stretches(stretches: Stretches) -> Stretches:
     return stretches[0] / xi_1, stretches[1] / xi_2, stretches[2] * xi_1 * xi_2
 
 
+def deviators(stresses: Stretches) -> Stretches:
+    """Deviatoric stresses [Pa], which no pressure changes."""
+    mean = sum(stresses) / 3
+    first, second, third = (stress - mean for stress in stresses)
+    return first, second, third
+
+
 def dashpot_strain_rates(stresses: Stretches) -> Stretches:
     """Rate of deformation [1/s] of a Newtonian dashpot, deviatoric stress over 2 eta.
 
     This is the law of which Eqs. (5)-(6) are the two in-plane components for neo-Hookean springs.
     """
-    mean = sum(stresses) / 3
-    first, second, third = ((stress - mean) / (2 * s.VISCOSITY.symbol) for stress in stresses)
+    first, second, third = (deviator / (2 * s.VISCOSITY.symbol) for deviator in deviators(stresses))
     return first, second, third
 
 
@@ -138,7 +145,8 @@ def dissipated_power(stresses: Stretches, volume: sp.Expr) -> sp.Expr:
     """Power [W] that the stresses do on the dashpot, in terms of the rates of xi_1 and xi_2."""
     in_plane = [internal.rate.symbol / internal.value.symbol for internal in INTERNALS]
     rates = (*in_plane, -sum(in_plane))
-    return volume * sum((stress * rate for stress, rate in zip(stresses, rates, strict=True)), sp.Integer(0))
+    pairs = zip(deviators(stresses), rates, strict=True)
+    return volume * sum((deviator * rate for deviator, rate in pairs), sp.Integer(0))
 
 
 def membrane(spring_alpha: StrainEnergy, spring_beta: StrainEnergy) -> Membrane:
@@ -168,6 +176,7 @@ def membrane(spring_alpha: StrainEnergy, spring_beta: StrainEnergy) -> Membrane:
             forces=work_of_forces(place),
             electrostatic=volume * electrostatic_energy_density(stretches),
         ),
+        dashpot_deviators=deviators(stresses),
         dashpot_rates=tuple(
             internal.value.symbol * rate for internal, rate in zip(INTERNALS, strain_rates[:2], strict=True)
         ),

@@ -3,10 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import chain
 from pathlib import Path
 
 from delagrange.derive import symbols as s
-from delagrange.derive.derived_equations import check_dimensions, derived_equations
+from delagrange.derive.derived_equations import (
+    check_dimensions,
+    check_model_dimensions,
+    derived_equations,
+)
 from delagrange.derive.emit import emit
 from delagrange.derive.euler_lagrange import EquationsOfMotion, equations_of_motion
 from delagrange.derive.kernel import kernel
@@ -16,6 +21,8 @@ from delagrange.derive.published.sheng_2015 import SHENG_2015
 from delagrange.derive.strain_energy import neo_hookean
 from delagrange.derive.verdict import Verdict
 from delagrange.derive.verify import verify
+
+_PACKAGE_MARKER = "__init__.py"  # makes the folder a package; it is empty
 
 
 @dataclass(frozen=True)
@@ -33,34 +40,39 @@ def paper_membrane() -> Membrane:
 
 
 def derive(model: Membrane, load_case: LoadCase) -> EquationsOfMotion:
-    """Equations of motion whose every term has its unit.
+    """Equations of motion whose every term, and every part that is emitted, has its unit.
 
     Raises:
-        DimensionError: a derived term breaks the unit of its equation.
+        DimensionError: a derived term breaks the unit of its equation, or a part has another unit.
     """
     eom = equations_of_motion(model, load_case)
     for equation in derived_equations(eom).values():
         check_dimensions(equation)
+    check_model_dimensions(eom)
     return eom
+
+
+def derive_all() -> tuple[EquationsOfMotion, ...]:
+    """Every model of the paper's membrane, the unconstrained one first."""
+    model = paper_membrane()
+    return tuple(derive(model, load_case) for load_case in (BIAXIAL, *EMITTED))
 
 
 def walk() -> Walked:
     """Derive all models, check them against the paper, describe and emit those that are emitted."""
-    model = paper_membrane()
-    models = tuple(derive(model, load_case) for load_case in (BIAXIAL, *EMITTED))
-    verdicts = {eom.load_case.name: verify(eom, SHENG_2015) for eom in models}
+    models = derive_all()
+    verdicts = tuple(verify(eom, SHENG_2015) for eom in models)
     modules = tuple(
-        (f"{eom.load_case.name}.py", emit(kernel(eom, verdicts[eom.load_case.name])))
-        for eom in models
+        (f"{eom.load_case.name}.py", emit(kernel(eom, found)))
+        for eom, found in zip(models, verdicts, strict=True)
         if eom.load_case in EMITTED
     )
-    return Walked(models, tuple(verdict for found in verdicts.values() for verdict in found), modules)
+    return Walked(models, tuple(chain.from_iterable(verdicts)), modules)
 
 
 def check() -> tuple[Verdict, ...]:
     """The verdicts alone, without emitting."""
-    model = paper_membrane()
-    return tuple(v for load_case in (BIAXIAL, *EMITTED) for v in verify(derive(model, load_case), SHENG_2015))
+    return tuple(verdict for eom in derive_all() for verdict in verify(eom, SHENG_2015))
 
 
 def write(modules: tuple[tuple[str, str], ...], folder: Path) -> None:
@@ -81,8 +93,17 @@ def write(modules: tuple[tuple[str, str], ...], folder: Path) -> None:
 
 def stale(modules: tuple[tuple[str, str], ...], folder: Path) -> tuple[str, ...]:
     """Names of the modules in `folder` that are not, byte for byte, what the derivation emits."""
-    return tuple(
-        name
-        for name, text in modules
-        if not (folder / name).is_file() or (folder / name).read_bytes() != text.encode("utf-8")
-    )
+    return tuple(name for name, text in modules if not _holds(folder / name, text))
+
+
+def surplus(modules: tuple[tuple[str, str], ...], folder: Path) -> tuple[str, ...]:
+    """Names of what stands in `folder` and nothing emits, an `__init__.py` that is not empty among them."""
+    emitted = {name for name, _ in modules}
+    found = sorted(path.name for path in folder.iterdir()) if folder.is_dir() else []
+    marker = folder / _PACKAGE_MARKER
+    allowed = {_PACKAGE_MARKER, "__pycache__"} if _holds(marker, "") else {"__pycache__"}
+    return tuple(name for name in found if name not in emitted | allowed)
+
+
+def _holds(path: Path, text: str) -> bool:
+    return path.is_file() and path.read_bytes() == text.encode("utf-8")

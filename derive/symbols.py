@@ -115,6 +115,30 @@ SHEAR_MODULUS_BETA = _quantity(
 )
 VISCOSITY = _quantity("eta", "viscosity", "η", r"\eta", "Pa s", "viscosity of the dashpot, τ_v μ^β")
 
+# Further constants of the strain energies
+SECOND_MODULUS_ALPHA = _quantity(
+    "mu_2_alpha", "second_modulus_alpha", "μ_2^α", r"\mu_{2}^{\alpha}", "Pa", "second modulus of spring α"
+)
+SECOND_MODULUS_BETA = _quantity(
+    "mu_2_beta", "second_modulus_beta", "μ_2^β", r"\mu_{2}^{\beta}", "Pa", "second modulus of spring β"
+)
+LOCKING_ALPHA = _quantity(
+    "J_alpha",
+    "locking_alpha",
+    "J^α",
+    r"J^{\alpha}",
+    "1",
+    "locking limit of spring α, of its first invariant less 3",
+)
+LOCKING_BETA = _quantity(
+    "J_beta",
+    "locking_beta",
+    "J^β",
+    r"J^{\beta}",
+    "1",
+    "locking limit of spring β, of its first invariant less 3",
+)
+
 # What drives it
 FORCE_1 = _quantity(
     "P_1", "force_1", "P_1", "P_1", "N", "force on each edge normal to axis 1", positive=False
@@ -197,6 +221,7 @@ POTENTIAL_ENERGY = _quantity(
 _CONSTANTS_AND_INPUTS = (
     TIME, MATERIAL_X, MATERIAL_Y, MATERIAL_Z,
     HALF_LENGTH, HALF_THICKNESS, DENSITY, PERMITTIVITY, SHEAR_MODULUS_ALPHA, SHEAR_MODULUS_BETA, VISCOSITY,
+    SECOND_MODULUS_ALPHA, SECOND_MODULUS_BETA, LOCKING_ALPHA, LOCKING_BETA,
     FORCE_1, FORCE_2, FORCE, FIELD, REACTION_2, HELD_STRETCH, KINETIC_ENERGY, POTENTIAL_ENERGY,
 )  # fmt: skip
 _MOVING = (

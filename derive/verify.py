@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
 
 import sympy as sp
 
-from delagrange.derive.compare import Comparison, Witness, compare, witness
+from delagrange.derive.compare import Comparison, Witness, compare, scaling, witness
 from delagrange.derive.derived_equations import DerivedEquation, derived_equations
 from delagrange.derive.euler_lagrange import EquationsOfMotion
 from delagrange.derive.explain import corrections, unmatched_terms
@@ -37,7 +37,6 @@ def verify(eom: EquationsOfMotion, paper: Paper) -> tuple[Verdict, ...]:
 
     Raises:
         LatexError: a printed equation cannot be read.
-        UnprovedEqualityError: an equality that holds in numbers could not be proved.
     """
     derived = derived_equations(eom)
     return tuple(_verdict(printed, derived, paper) for printed in printed_for(eom, paper))
@@ -47,12 +46,10 @@ def _verdict(printed: PrintedEquation, derived: Mapping[str, DerivedEquation], p
     equation = derived[printed.quantity]
     if printed.latex is None:
         return _missing(printed, equation)
-    note = "; ".join(
-        (*filter(None, (printed.note,)), *(f"read {r.new} for {r.old}" for r in printed.repairs))
-    )
-    tree = printed.read(paper.table)
-    subject = witness(equation, _known_symbols())
-    return replace(verdict_on(tree, subject), number=printed.number, note=note)
+    verdict = verdict_on(printed.read(paper.table), witness(equation, _known_symbols()))
+    repairs = (f"read {r.new} for {r.old}" for r in printed.repairs)
+    note = "; ".join(filter(None, (verdict.note, printed.note, *repairs)))
+    return replace(verdict, number=printed.number, note=note)
 
 
 def _missing(printed: PrintedEquation, equation: DerivedEquation) -> Verdict:
@@ -74,10 +71,11 @@ def verdict_on(tree: Equation, subject: Witness, *, explained: bool = True) -> V
         _outcome(comparison),
         comparison.factor,
         unit_faults=tuple(str(fault) for fault in check_printed(tree) if not fault.ok),
+        note=f"{comparison.reason}: compared as differing" if comparison.reason else "",
     )
     if comparison.equal or not explained:
         return verdict
-    from_derivation, from_print = unmatched_terms(tree, subject.derived, comparison.factor)
+    from_derivation, from_print = unmatched_terms(tree, subject.derived, scaling(tree, subject.derived))
     return replace(
         verdict,
         derived_unmatched=from_derivation,
@@ -90,8 +88,3 @@ def _outcome(comparison: Comparison) -> Outcome:
     if not comparison.equal:
         return Outcome.DIFFERS
     return Outcome.EQUAL if comparison.factor == 1 else Outcome.SCALED
-
-
-def verdicts_of(models: Iterable[EquationsOfMotion], paper: Paper) -> tuple[Verdict, ...]:
-    """All verdicts, model by model."""
-    return tuple(verdict for eom in models for verdict in verify(eom, paper))

@@ -33,7 +33,8 @@ Checked against the equations printed there:
 Provenance: digest of the governing equations 29e06058664142c4, SymPy 1.14.0.
 
 Every function takes `(state, inputs, parameters)`, each a sequence of numbers or arrays in the order
-of `STATE`, `INPUTS` and `PARAMETERS`; entries broadcast over any trailing shape, written `...` below.
+of `STATE`, `INPUTS` and `PARAMETERS`. Entries may be arrays; what is returned has, as its trailing shape
+(written `...` below), that of the entries it depends on, broadcast against each other.
 """
 
 from typing import NamedTuple
@@ -89,7 +90,7 @@ def reference_state(parameters):
     Returns:
         Array (3, ...) [the units of STATE].
     """
-    return _stack((3,), 1, 0, 1)
+    return _stack((3,), 1.0, 0.0, 1.0)
 
 
 def rhs(state, inputs, parameters):
@@ -145,7 +146,7 @@ def rhs(state, inputs, parameters):
     # mass matrix times acceleration = net force
     stretch_acceleration = net_force / mass
     # flow of the dashpot [1/s]
-    inelastic_stretch_rate = shear_modulus_beta / (6 * viscosity) * (
+    inelastic_stretch_rate = (shear_modulus_beta / (6 * viscosity)) * (
         -inelastic_stretch_pow5 * inverse_stretch_pow4
         + inverse_inelastic_stretch * stretch_pow2
     )
@@ -191,7 +192,7 @@ def jacobian(state, inputs, parameters):
     stretch_rate_pow2 = stretch_rate * stretch_rate
     # mass matrix [kg m^2]
     mass = 2 * density * volume * (half_length**2 + 2 * half_thickness**2 * inverse_stretch_pow6) / 3
-    # slope of (net force - mass matrix times acceleration) with respect to the state
+    # slope of (net force - mass matrix times acceleration), [J] per unit of the state
     force_slope_1_1 = volume * (
         8 * density * half_thickness**2 * inverse_stretch_pow7 * stretch_acceleration
         - 28 * density * half_thickness**2 * inverse_stretch_pow8 * stretch_rate_pow2
@@ -206,12 +207,12 @@ def jacobian(state, inputs, parameters):
         2 * inelastic_stretch_pow3 * inverse_stretch_pow5
         + inverse_inelastic_stretch_pow3 * stretch
     )
-    # slope of the dashpot rates with respect to the state
-    dashpot_slope_1_1 = shear_modulus_beta / (3 * viscosity) * (
+    # slope of the dashpot rates, [1/s] per unit of the state
+    dashpot_slope_1_1 = (shear_modulus_beta / (3 * viscosity)) * (
         2 * inelastic_stretch_pow5 * inverse_stretch_pow5
         + inverse_inelastic_stretch * stretch
     )
-    dashpot_slope_1_3 = -shear_modulus_beta / (6 * viscosity) * (
+    dashpot_slope_1_3 = (-shear_modulus_beta / (6 * viscosity)) * (
         5 * inelastic_stretch_pow4 * inverse_stretch_pow4
         + inverse_inelastic_stretch_pow2 * stretch_pow2
     )
@@ -266,7 +267,7 @@ def kinetic_energy(state, inputs, parameters):
     inverse_stretch_pow3 = inverse_stretch * inverse_stretch_pow2
     inverse_stretch_pow6 = inverse_stretch_pow3 * inverse_stretch_pow3
     stretch_rate_pow2 = stretch_rate * stretch_rate
-    return density * stretch_rate_pow2 * volume / 3 * (
+    return (density * stretch_rate_pow2 * volume / 3) * (
         half_length**2
         + 2 * half_thickness**2 * inverse_stretch_pow6
     )
@@ -294,7 +295,7 @@ def potential_energy(state, inputs, parameters):
     inverse_stretch_pow2 = inverse_stretch * inverse_stretch
     inverse_stretch_pow4 = inverse_stretch_pow2 * inverse_stretch_pow2
     spring_alpha_energy = shear_modulus_alpha * volume * (inverse_stretch_pow4 + 2 * stretch_pow2 - 3) / 2
-    spring_beta_energy = shear_modulus_beta * volume / 2 * (
+    spring_beta_energy = (shear_modulus_beta * volume / 2) * (
         inelastic_stretch_pow4 * inverse_stretch_pow4
         + 2 * inverse_inelastic_stretch_pow2 * stretch_pow2
         - 3
@@ -329,20 +330,27 @@ def dashpot_power(state, inputs, parameters):
     # powers of the state
     inelastic_stretch_pow2 = inelastic_stretch * inelastic_stretch
     inelastic_stretch_pow4 = inelastic_stretch_pow2 * inelastic_stretch_pow2
-    inelastic_stretch_pow8 = inelastic_stretch_pow4 * inelastic_stretch_pow4
     inverse_inelastic_stretch = 1 / inelastic_stretch
     inverse_inelastic_stretch_pow2 = inverse_inelastic_stretch * inverse_inelastic_stretch
-    inverse_inelastic_stretch_pow4 = inverse_inelastic_stretch_pow2 * inverse_inelastic_stretch_pow2
     stretch_pow2 = stretch * stretch
-    stretch_pow4 = stretch_pow2 * stretch_pow2
     inverse_stretch = 1 / stretch
     inverse_stretch_pow2 = inverse_stretch * inverse_stretch
     inverse_stretch_pow4 = inverse_stretch_pow2 * inverse_stretch_pow2
-    inverse_stretch_pow8 = inverse_stretch_pow4 * inverse_stretch_pow4
-    return shear_modulus_beta**2 * volume / (3 * viscosity) * (
-        -2 * inelastic_stretch_pow2 * inverse_stretch_pow2
-        + inelastic_stretch_pow8 * inverse_stretch_pow8
-        + inverse_inelastic_stretch_pow4 * stretch_pow4
+    # shared by what follows
+    shared_1 = inelastic_stretch_pow4 * inverse_stretch_pow4 - inverse_inelastic_stretch_pow2 * stretch_pow2
+    shared_2 = -shared_1 * shear_modulus_beta / 3
+    # deviatoric stress on the dashpot [Pa]
+    deviatoric_stress_1 = shared_2
+    deviatoric_stress_2 = shared_2
+    deviatoric_stress_3 = 2 * shared_1 * shear_modulus_beta / 3
+    # strain rate of the dashpot [1/s]
+    strain_rate_1 = deviatoric_stress_1 / (2 * viscosity)
+    strain_rate_2 = deviatoric_stress_2 / (2 * viscosity)
+    strain_rate_3 = deviatoric_stress_3 / (2 * viscosity)
+    return volume * (
+        deviatoric_stress_1 * strain_rate_1
+        + deviatoric_stress_2 * strain_rate_2
+        + deviatoric_stress_3 * strain_rate_3
     )
 
 

@@ -6,10 +6,9 @@ Model pure_shear_as_printed, formulation as_printed, from the Euler-Lagrange equ
 A square membrane of sides 2 L and thickness 2 H in the reference state; SI units throughout.
 
 The paper puts the reaction of the frame, Eq. (19), into the potential before the variation, Eq. (20). A
-workless constraint does not allow that step: it triples two terms and turns the sign of the electric one.
-This module is for reproducing the paper; use pure_shear_consistent for mechanics. The inelastic stretch along
-the held axis is itself held at the held stretch, as in the paper; Eq. (6) would give it a rate, which this
-model ignores.
+workless constraint does not allow that step. This module is for reproducing the paper; use
+pure_shear_consistent for mechanics. The inelastic stretch along the held axis is itself held at the held
+stretch, as in the paper; Eq. (6) would give it a rate, which this model ignores.
 
 Governing equations, in the notation of Sheng et al. (2015), J. Appl. Phys., doi:10.1063/1.4913384:
 
@@ -42,7 +41,8 @@ Checked against the equations printed there:
 Provenance: digest of the governing equations aba303a6d8b0ff39, SymPy 1.14.0.
 
 Every function takes `(state, inputs, parameters)`, each a sequence of numbers or arrays in the order
-of `STATE`, `INPUTS` and `PARAMETERS`; entries broadcast over any trailing shape, written `...` below.
+of `STATE`, `INPUTS` and `PARAMETERS`. Entries may be arrays; what is returned has, as its trailing shape
+(written `...` below), that of the entries it depends on, broadcast against each other.
 """
 
 from typing import NamedTuple
@@ -96,12 +96,12 @@ def _stack(shape, *entries):
 
 
 def reference_state(parameters):
-    """State at rest in the reference configuration.
+    """State at rest with the free axis undeformed; a dashpot along the held axis has relaxed to its stretch.
 
     Returns:
         Array (3, ...) [the units of STATE].
     """
-    return _stack((3,), 1, 0, 1)
+    return _stack((3,), 1.0, 0.0, 1.0)
 
 
 def rhs(state, inputs, parameters):
@@ -137,34 +137,34 @@ def rhs(state, inputs, parameters):
     inverse_stretch_pow5 = inverse_stretch * inverse_stretch_pow4
     stretch_rate_pow2 = stretch_rate * stretch_rate
     # mass matrix [kg m^2]
-    mass = density * volume / 3 * (
+    mass = (density * volume / 3) * (
         half_length**2
         + half_thickness**2 * inverse_stretch_pow4 / held_stretch**2
     )
     # generalised force of the thickness inertia, quadratic in the rates [J]
     inertia_force = (
-        2 * density * half_thickness**2 * inverse_stretch_pow5 * stretch_rate_pow2 * volume / (3 *
-            held_stretch**2)
+        2 * density * half_thickness**2 * inverse_stretch_pow5 * stretch_rate_pow2
+            * volume / (3 * held_stretch**2)
     )
-    # generalised force of spring α [J]
+    # generalised force of spring α, with its share of the inserted reaction [J]
     spring_alpha_force = shear_modulus_alpha * volume * (
         -stretch
         + 3 * inverse_stretch_pow3 / held_stretch**2
     )
-    # generalised force of spring β [J]
+    # generalised force of spring β, with its share of the inserted reaction [J]
     spring_beta_force = shear_modulus_beta * volume * (
         3 * inelastic_stretch_pow2 * inverse_stretch_pow3
         - inverse_inelastic_stretch_pow2 * stretch
     )
     # generalised force of the applied forces [J]
     applied_force = 2 * force * half_length
-    # generalised force of the Maxwell stress [J]
+    # generalised force of the Maxwell stress, with its share of the inserted reaction [J]
     electric_force = -held_stretch**2 * nominal_electric_field**2 * permittivity * stretch * volume
     net_force = applied_force + electric_force + inertia_force + spring_alpha_force + spring_beta_force
     # mass matrix times acceleration = net force
     stretch_acceleration = net_force / mass
     # flow of the dashpot [1/s]
-    inelastic_stretch_rate = shear_modulus_beta / (6 * viscosity) * (
+    inelastic_stretch_rate = (shear_modulus_beta / (6 * viscosity)) * (
         -inelastic_stretch
         - inelastic_stretch_pow3 * inverse_stretch_pow2
         + 2 * inverse_inelastic_stretch * stretch_pow2
@@ -208,11 +208,11 @@ def jacobian(state, inputs, parameters):
     inverse_stretch_pow6 = inverse_stretch * inverse_stretch_pow5
     stretch_rate_pow2 = stretch_rate * stretch_rate
     # mass matrix [kg m^2]
-    mass = density * volume / 3 * (
+    mass = (density * volume / 3) * (
         half_length**2
         + half_thickness**2 * inverse_stretch_pow4 / held_stretch**2
     )
-    # slope of (net force - mass matrix times acceleration) with respect to the state
+    # slope of (net force - mass matrix times acceleration), [J] per unit of the state
     force_slope_1_1 = volume * (
         4 * density * half_thickness**2 * inverse_stretch_pow5 * stretch_acceleration / (3 * held_stretch**2)
         - 10 * density * half_thickness**2 * inverse_stretch_pow6 * stretch_rate_pow2 / (3 * held_stretch**2)
@@ -229,12 +229,12 @@ def jacobian(state, inputs, parameters):
         3 * inelastic_stretch * inverse_stretch_pow3
         + inverse_inelastic_stretch_pow3 * stretch
     )
-    # slope of the dashpot rates with respect to the state
-    dashpot_slope_1_1 = shear_modulus_beta / (3 * viscosity) * (
+    # slope of the dashpot rates, [1/s] per unit of the state
+    dashpot_slope_1_1 = (shear_modulus_beta / (3 * viscosity)) * (
         inelastic_stretch_pow3 * inverse_stretch_pow3
         + 2 * inverse_inelastic_stretch * stretch
     )
-    dashpot_slope_1_3 = -shear_modulus_beta / (6 * viscosity) * (
+    dashpot_slope_1_3 = (-shear_modulus_beta / (6 * viscosity)) * (
         3 * inelastic_stretch_pow2 * inverse_stretch_pow2
         + 2 * inverse_inelastic_stretch_pow2 * stretch_pow2
         + 1
@@ -288,14 +288,14 @@ def kinetic_energy(state, inputs, parameters):
     inverse_stretch_pow2 = inverse_stretch * inverse_stretch
     inverse_stretch_pow4 = inverse_stretch_pow2 * inverse_stretch_pow2
     stretch_rate_pow2 = stretch_rate * stretch_rate
-    return density * stretch_rate_pow2 * volume / 6 * (
+    return (density * stretch_rate_pow2 * volume / 6) * (
         half_length**2
         + half_thickness**2 * inverse_stretch_pow4 / held_stretch**2
     )
 
 
 def potential_energy(state, inputs, parameters):
-    """Potential energy of springs, applied forces and field.
+    """Potential energy of springs, applied forces and field, each with its share of the inserted reaction.
 
     Returns:
         Array (...) [J].
@@ -321,13 +321,13 @@ def potential_energy(state, inputs, parameters):
     stretch_pow2 = stretch * stretch
     inverse_stretch = 1 / stretch
     inverse_stretch_pow2 = inverse_stretch * inverse_stretch
-    spring_alpha_energy = shear_modulus_alpha * volume / 2 * (
+    spring_alpha_energy = (shear_modulus_alpha * volume / 2) * (
         -held_stretch**2
         + stretch_pow2
         - 3
         + 3 * inverse_stretch_pow2 / held_stretch**2
     )
-    spring_beta_energy = shear_modulus_beta * volume / 2 * (
+    spring_beta_energy = (shear_modulus_beta * volume / 2) * (
         3 * inelastic_stretch_pow2 * inverse_stretch_pow2
         + inverse_inelastic_stretch_pow2 * stretch_pow2
         - 4
@@ -363,21 +363,35 @@ def dashpot_power(state, inputs, parameters):
     volume = 8 * half_length**2 * half_thickness
     # powers of the state
     inelastic_stretch_pow2 = inelastic_stretch * inelastic_stretch
-    inelastic_stretch_pow4 = inelastic_stretch_pow2 * inelastic_stretch_pow2
     inverse_inelastic_stretch = 1 / inelastic_stretch
     inverse_inelastic_stretch_pow2 = inverse_inelastic_stretch * inverse_inelastic_stretch
-    inverse_inelastic_stretch_pow4 = inverse_inelastic_stretch_pow2 * inverse_inelastic_stretch_pow2
     stretch_pow2 = stretch * stretch
-    stretch_pow4 = stretch_pow2 * stretch_pow2
     inverse_stretch = 1 / stretch
     inverse_stretch_pow2 = inverse_stretch * inverse_stretch
-    inverse_stretch_pow4 = inverse_stretch_pow2 * inverse_stretch_pow2
-    return shear_modulus_beta**2 * volume / (2 * viscosity) * (
-        inelastic_stretch_pow2 * inverse_stretch_pow2 / 3
-        + inelastic_stretch_pow4 * inverse_stretch_pow4 / 3
-        - inverse_inelastic_stretch_pow2 * stretch_pow2 / 3
-        + 2 * inverse_inelastic_stretch_pow4 * stretch_pow4 / 3
+    # deviatoric stress on the dashpot [Pa]
+    deviatoric_stress_1 = (shear_modulus_beta / 3) * (
+        -inelastic_stretch_pow2 * inverse_stretch_pow2
+        + 2 * inverse_inelastic_stretch_pow2 * stretch_pow2
         - 1
+    )
+    deviatoric_stress_2 = (shear_modulus_beta / 3) * (
+        -inelastic_stretch_pow2 * inverse_stretch_pow2
+        - inverse_inelastic_stretch_pow2 * stretch_pow2
+        + 2
+    )
+    deviatoric_stress_3 = (shear_modulus_beta / 3) * (
+        2 * inelastic_stretch_pow2 * inverse_stretch_pow2
+        - inverse_inelastic_stretch_pow2 * stretch_pow2
+        - 1
+    )
+    # strain rate of the dashpot [1/s]
+    strain_rate_1 = deviatoric_stress_1 / (2 * viscosity)
+    strain_rate_2 = 0
+    strain_rate_3 = -deviatoric_stress_1 / (2 * viscosity)
+    return volume * (
+        deviatoric_stress_1 * strain_rate_1
+        + deviatoric_stress_2 * strain_rate_2
+        + deviatoric_stress_3 * strain_rate_3
     )
 
 

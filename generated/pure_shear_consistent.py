@@ -48,7 +48,8 @@ Checked against the equations printed there:
 Provenance: digest of the governing equations 32a0eb6f0fc450ec, SymPy 1.14.0.
 
 Every function takes `(state, inputs, parameters)`, each a sequence of numbers or arrays in the order
-of `STATE`, `INPUTS` and `PARAMETERS`; entries broadcast over any trailing shape, written `...` below.
+of `STATE`, `INPUTS` and `PARAMETERS`. Entries may be arrays; what is returned has, as its trailing shape
+(written `...` below), that of the entries it depends on, broadcast against each other.
 """
 
 from typing import NamedTuple
@@ -102,12 +103,12 @@ def _stack(shape, *entries):
 
 
 def reference_state(parameters):
-    """State at rest in the reference configuration.
+    """State at rest with the free axis undeformed; a dashpot along the held axis has relaxed to its stretch.
 
     Returns:
         Array (3, ...) [the units of STATE].
     """
-    return _stack((3,), 1, 0, 1)
+    return _stack((3,), 1.0, 0.0, 1.0)
 
 
 def rhs(state, inputs, parameters):
@@ -143,14 +144,14 @@ def rhs(state, inputs, parameters):
     inverse_stretch_pow5 = inverse_stretch * inverse_stretch_pow4
     stretch_rate_pow2 = stretch_rate * stretch_rate
     # mass matrix [kg m^2]
-    mass = density * volume / 3 * (
+    mass = (density * volume / 3) * (
         half_length**2
         + half_thickness**2 * inverse_stretch_pow4 / held_stretch**2
     )
     # generalised force of the thickness inertia, quadratic in the rates [J]
     inertia_force = (
-        2 * density * half_thickness**2 * inverse_stretch_pow5 * stretch_rate_pow2 * volume / (3 *
-            held_stretch**2)
+        2 * density * half_thickness**2 * inverse_stretch_pow5 * stretch_rate_pow2
+            * volume / (3 * held_stretch**2)
     )
     # generalised force of spring α [J]
     spring_alpha_force = shear_modulus_alpha * volume * (-stretch + inverse_stretch_pow3 / held_stretch**2)
@@ -167,7 +168,7 @@ def rhs(state, inputs, parameters):
     # mass matrix times acceleration = net force
     stretch_acceleration = net_force / mass
     # flow of the dashpot [1/s]
-    inelastic_stretch_rate = shear_modulus_beta / (6 * viscosity) * (
+    inelastic_stretch_rate = (shear_modulus_beta / (6 * viscosity)) * (
         -inelastic_stretch
         - inelastic_stretch_pow3 * inverse_stretch_pow2
         + 2 * inverse_inelastic_stretch * stretch_pow2
@@ -211,11 +212,11 @@ def jacobian(state, inputs, parameters):
     inverse_stretch_pow6 = inverse_stretch * inverse_stretch_pow5
     stretch_rate_pow2 = stretch_rate * stretch_rate
     # mass matrix [kg m^2]
-    mass = density * volume / 3 * (
+    mass = (density * volume / 3) * (
         half_length**2
         + half_thickness**2 * inverse_stretch_pow4 / held_stretch**2
     )
-    # slope of (net force - mass matrix times acceleration) with respect to the state
+    # slope of (net force - mass matrix times acceleration), [J] per unit of the state
     force_slope_1_1 = volume * (
         4 * density * half_thickness**2 * inverse_stretch_pow5 * stretch_acceleration / (3 * held_stretch**2)
         - 10 * density * half_thickness**2 * inverse_stretch_pow6 * stretch_rate_pow2 / (3 * held_stretch**2)
@@ -232,12 +233,12 @@ def jacobian(state, inputs, parameters):
         inelastic_stretch * inverse_stretch_pow3
         + inverse_inelastic_stretch_pow3 * stretch
     )
-    # slope of the dashpot rates with respect to the state
-    dashpot_slope_1_1 = shear_modulus_beta / (3 * viscosity) * (
+    # slope of the dashpot rates, [1/s] per unit of the state
+    dashpot_slope_1_1 = (shear_modulus_beta / (3 * viscosity)) * (
         inelastic_stretch_pow3 * inverse_stretch_pow3
         + 2 * inverse_inelastic_stretch * stretch
     )
-    dashpot_slope_1_3 = -shear_modulus_beta / (6 * viscosity) * (
+    dashpot_slope_1_3 = (-shear_modulus_beta / (6 * viscosity)) * (
         3 * inelastic_stretch_pow2 * inverse_stretch_pow2
         + 2 * inverse_inelastic_stretch_pow2 * stretch_pow2
         + 1
@@ -291,7 +292,7 @@ def kinetic_energy(state, inputs, parameters):
     inverse_stretch_pow2 = inverse_stretch * inverse_stretch
     inverse_stretch_pow4 = inverse_stretch_pow2 * inverse_stretch_pow2
     stretch_rate_pow2 = stretch_rate * stretch_rate
-    return density * stretch_rate_pow2 * volume / 6 * (
+    return (density * stretch_rate_pow2 * volume / 6) * (
         half_length**2
         + half_thickness**2 * inverse_stretch_pow4 / held_stretch**2
     )
@@ -324,13 +325,13 @@ def potential_energy(state, inputs, parameters):
     stretch_pow2 = stretch * stretch
     inverse_stretch = 1 / stretch
     inverse_stretch_pow2 = inverse_stretch * inverse_stretch
-    spring_alpha_energy = shear_modulus_alpha * volume / 2 * (
+    spring_alpha_energy = (shear_modulus_alpha * volume / 2) * (
         held_stretch**2
         + stretch_pow2
         - 3
         + inverse_stretch_pow2 / held_stretch**2
     )
-    spring_beta_energy = shear_modulus_beta * volume / 2 * (
+    spring_beta_energy = (shear_modulus_beta * volume / 2) * (
         inelastic_stretch_pow2 * inverse_stretch_pow2
         + inverse_inelastic_stretch_pow2 * stretch_pow2
         - 2
@@ -366,21 +367,35 @@ def dashpot_power(state, inputs, parameters):
     volume = 8 * half_length**2 * half_thickness
     # powers of the state
     inelastic_stretch_pow2 = inelastic_stretch * inelastic_stretch
-    inelastic_stretch_pow4 = inelastic_stretch_pow2 * inelastic_stretch_pow2
     inverse_inelastic_stretch = 1 / inelastic_stretch
     inverse_inelastic_stretch_pow2 = inverse_inelastic_stretch * inverse_inelastic_stretch
-    inverse_inelastic_stretch_pow4 = inverse_inelastic_stretch_pow2 * inverse_inelastic_stretch_pow2
     stretch_pow2 = stretch * stretch
-    stretch_pow4 = stretch_pow2 * stretch_pow2
     inverse_stretch = 1 / stretch
     inverse_stretch_pow2 = inverse_stretch * inverse_stretch
-    inverse_stretch_pow4 = inverse_stretch_pow2 * inverse_stretch_pow2
-    return shear_modulus_beta**2 * volume / (2 * viscosity) * (
-        inelastic_stretch_pow2 * inverse_stretch_pow2 / 3
-        + inelastic_stretch_pow4 * inverse_stretch_pow4 / 3
-        - inverse_inelastic_stretch_pow2 * stretch_pow2 / 3
-        + 2 * inverse_inelastic_stretch_pow4 * stretch_pow4 / 3
+    # deviatoric stress on the dashpot [Pa]
+    deviatoric_stress_1 = (shear_modulus_beta / 3) * (
+        -inelastic_stretch_pow2 * inverse_stretch_pow2
+        + 2 * inverse_inelastic_stretch_pow2 * stretch_pow2
         - 1
+    )
+    deviatoric_stress_2 = (shear_modulus_beta / 3) * (
+        -inelastic_stretch_pow2 * inverse_stretch_pow2
+        - inverse_inelastic_stretch_pow2 * stretch_pow2
+        + 2
+    )
+    deviatoric_stress_3 = (shear_modulus_beta / 3) * (
+        2 * inelastic_stretch_pow2 * inverse_stretch_pow2
+        - inverse_inelastic_stretch_pow2 * stretch_pow2
+        - 1
+    )
+    # strain rate of the dashpot [1/s]
+    strain_rate_1 = deviatoric_stress_1 / (2 * viscosity)
+    strain_rate_2 = 0
+    strain_rate_3 = -deviatoric_stress_1 / (2 * viscosity)
+    return volume * (
+        deviatoric_stress_1 * strain_rate_1
+        + deviatoric_stress_2 * strain_rate_2
+        + deviatoric_stress_3 * strain_rate_3
     )
 
 

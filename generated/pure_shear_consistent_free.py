@@ -48,7 +48,8 @@ Checked against the equations printed there:
 Provenance: digest of the governing equations eec42d3a12af004c, SymPy 1.14.0.
 
 Every function takes `(state, inputs, parameters)`, each a sequence of numbers or arrays in the order
-of `STATE`, `INPUTS` and `PARAMETERS`; entries broadcast over any trailing shape, written `...` below.
+of `STATE`, `INPUTS` and `PARAMETERS`. Entries may be arrays; what is returned has, as its trailing shape
+(written `...` below), that of the entries it depends on, broadcast against each other.
 """
 
 from typing import NamedTuple
@@ -103,13 +104,13 @@ def _stack(shape, *entries):
 
 
 def reference_state(parameters):
-    """State at rest in the reference configuration.
+    """State at rest with the free axis undeformed; a dashpot along the held axis has relaxed to its stretch.
 
     Returns:
         Array (4, ...) [the units of STATE].
     """
     _, _, _, _, _, _, _, held_stretch = parameters
-    return _stack((4,), 1, 0, 1, held_stretch)
+    return _stack((4,), 1.0, 0.0, 1.0, held_stretch)
 
 
 def rhs(state, inputs, parameters):
@@ -149,14 +150,14 @@ def rhs(state, inputs, parameters):
     inverse_stretch_pow5 = inverse_stretch * inverse_stretch_pow4
     stretch_rate_pow2 = stretch_rate * stretch_rate
     # mass matrix [kg m^2]
-    mass = density * volume / 3 * (
+    mass = (density * volume / 3) * (
         half_length**2
         + half_thickness**2 * inverse_stretch_pow4 / held_stretch**2
     )
     # generalised force of the thickness inertia, quadratic in the rates [J]
     inertia_force = (
-        2 * density * half_thickness**2 * inverse_stretch_pow5 * stretch_rate_pow2 * volume / (3 *
-            held_stretch**2)
+        2 * density * half_thickness**2 * inverse_stretch_pow5 * stretch_rate_pow2
+            * volume / (3 * held_stretch**2)
     )
     # generalised force of spring α [J]
     spring_alpha_force = shear_modulus_alpha * volume * (-stretch + inverse_stretch_pow3 / held_stretch**2)
@@ -173,12 +174,12 @@ def rhs(state, inputs, parameters):
     # mass matrix times acceleration = net force
     stretch_acceleration = net_force / mass
     # flow of the dashpot [1/s]
-    inelastic_stretch_rate = shear_modulus_beta / (6 * viscosity) * (
+    inelastic_stretch_rate = (shear_modulus_beta / (6 * viscosity)) * (
         -held_stretch**2 * inelastic_stretch * inverse_inelastic_stretch_2_pow2
         + 2 * inverse_inelastic_stretch * stretch_pow2
         - inelastic_stretch_2_pow2 * inelastic_stretch_pow3 * inverse_stretch_pow2 / held_stretch**2
     )
-    inelastic_stretch_rate_2 = shear_modulus_beta / (6 * viscosity) * (
+    inelastic_stretch_rate_2 = (shear_modulus_beta / (6 * viscosity)) * (
         2 * held_stretch**2 * inverse_inelastic_stretch_2
         - inelastic_stretch_2 * inverse_inelastic_stretch_pow2 * stretch_pow2
         - inelastic_stretch_2_pow3 * inelastic_stretch_pow2 * inverse_stretch_pow2 / held_stretch**2
@@ -231,7 +232,7 @@ def jacobian(state, inputs, parameters):
     shared_3 = 3 * inelastic_stretch_pow2 * inverse_stretch_pow2 * shared_2
     # mass matrix [kg m^2]
     mass = density * volume * (half_length**2 + half_thickness**2 * shared_1) / 3
-    # slope of (net force - mass matrix times acceleration) with respect to the state
+    # slope of (net force - mass matrix times acceleration), [J] per unit of the state
     force_slope_1_1 = volume * (
         4 * density * half_thickness**2 * inverse_stretch_pow5 * stretch_acceleration / (3 * held_stretch**2)
         - 10 * density * half_thickness**2 * inverse_stretch_pow6 * stretch_rate_pow2 / (3 * held_stretch**2)
@@ -249,32 +250,32 @@ def jacobian(state, inputs, parameters):
         + inverse_inelastic_stretch_pow3 * stretch
     )
     force_slope_1_4 = (
-        2 * inelastic_stretch_2 * inelastic_stretch_pow2 * inverse_stretch_pow3 * shear_modulus_beta * volume
-            / held_stretch**2
+        2 * inelastic_stretch_2 * inelastic_stretch_pow2 * inverse_stretch_pow3 * shear_modulus_beta
+            * volume / held_stretch**2
     )
-    # slope of the dashpot rates with respect to the state
-    dashpot_slope_1_1 = shear_modulus_beta / (3 * viscosity) * (
+    # slope of the dashpot rates, [1/s] per unit of the state
+    dashpot_slope_1_1 = (shear_modulus_beta / (3 * viscosity)) * (
         inelastic_stretch_pow3 * inverse_stretch_pow3 * shared_2
         + 2 * inverse_inelastic_stretch * stretch
     )
-    dashpot_slope_1_3 = -shear_modulus_beta / (6 * viscosity) * (
+    dashpot_slope_1_3 = (-shear_modulus_beta / (6 * viscosity)) * (
         held_stretch**2 * inverse_inelastic_stretch_2_pow2
         + 2 * inverse_inelastic_stretch_pow2 * stretch_pow2
         + shared_3
     )
-    dashpot_slope_1_4 = inelastic_stretch * shear_modulus_beta / (3 * viscosity) * (
+    dashpot_slope_1_4 = (inelastic_stretch * shear_modulus_beta / (3 * viscosity)) * (
         held_stretch**2 * inverse_inelastic_stretch_2_pow3
         - inelastic_stretch_2 * inelastic_stretch_pow2 * inverse_stretch_pow2 / held_stretch**2
     )
-    dashpot_slope_2_1 = inelastic_stretch_2 * shear_modulus_beta / (3 * viscosity) * (
+    dashpot_slope_2_1 = (inelastic_stretch_2 * shear_modulus_beta / (3 * viscosity)) * (
         -inverse_inelastic_stretch_pow2 * stretch
         + inelastic_stretch_2_pow2 * inelastic_stretch_pow2 * inverse_stretch_pow3 / held_stretch**2
     )
-    dashpot_slope_2_3 = inelastic_stretch_2 * shear_modulus_beta / (3 * viscosity) * (
+    dashpot_slope_2_3 = (inelastic_stretch_2 * shear_modulus_beta / (3 * viscosity)) * (
         -inelastic_stretch * inverse_stretch_pow2 * shared_2
         + inverse_inelastic_stretch_pow3 * stretch_pow2
     )
-    dashpot_slope_2_4 = -shear_modulus_beta / (6 * viscosity) * (
+    dashpot_slope_2_4 = (-shear_modulus_beta / (6 * viscosity)) * (
         2 * held_stretch**2 * inverse_inelastic_stretch_2_pow2
         + inverse_inelastic_stretch_pow2 * stretch_pow2
         + shared_3
@@ -335,7 +336,7 @@ def kinetic_energy(state, inputs, parameters):
     inverse_stretch_pow2 = inverse_stretch * inverse_stretch
     inverse_stretch_pow4 = inverse_stretch_pow2 * inverse_stretch_pow2
     stretch_rate_pow2 = stretch_rate * stretch_rate
-    return density * stretch_rate_pow2 * volume / 6 * (
+    return (density * stretch_rate_pow2 * volume / 6) * (
         half_length**2
         + half_thickness**2 * inverse_stretch_pow4 / held_stretch**2
     )
@@ -371,13 +372,13 @@ def potential_energy(state, inputs, parameters):
     stretch_pow2 = stretch * stretch
     inverse_stretch = 1 / stretch
     inverse_stretch_pow2 = inverse_stretch * inverse_stretch
-    spring_alpha_energy = shear_modulus_alpha * volume / 2 * (
+    spring_alpha_energy = (shear_modulus_alpha * volume / 2) * (
         held_stretch**2
         + stretch_pow2
         - 3
         + inverse_stretch_pow2 / held_stretch**2
     )
-    spring_beta_energy = shear_modulus_beta * volume / 2 * (
+    spring_beta_energy = (shear_modulus_beta * volume / 2) * (
         held_stretch**2 * inverse_inelastic_stretch_2_pow2
         + inverse_inelastic_stretch_pow2 * stretch_pow2
         - 3
@@ -414,27 +415,40 @@ def dashpot_power(state, inputs, parameters):
     volume = 8 * half_length**2 * half_thickness
     # powers of the state
     inelastic_stretch_pow2 = inelastic_stretch * inelastic_stretch
-    inelastic_stretch_pow4 = inelastic_stretch_pow2 * inelastic_stretch_pow2
     inverse_inelastic_stretch = 1 / inelastic_stretch
     inverse_inelastic_stretch_pow2 = inverse_inelastic_stretch * inverse_inelastic_stretch
-    inverse_inelastic_stretch_pow4 = inverse_inelastic_stretch_pow2 * inverse_inelastic_stretch_pow2
     inelastic_stretch_2_pow2 = inelastic_stretch_2 * inelastic_stretch_2
-    inelastic_stretch_2_pow4 = inelastic_stretch_2_pow2 * inelastic_stretch_2_pow2
     inverse_inelastic_stretch_2 = 1 / inelastic_stretch_2
     inverse_inelastic_stretch_2_pow2 = inverse_inelastic_stretch_2 * inverse_inelastic_stretch_2
-    inverse_inelastic_stretch_2_pow4 = inverse_inelastic_stretch_2_pow2 * inverse_inelastic_stretch_2_pow2
     stretch_pow2 = stretch * stretch
-    stretch_pow4 = stretch_pow2 * stretch_pow2
     inverse_stretch = 1 / stretch
     inverse_stretch_pow2 = inverse_stretch * inverse_stretch
-    inverse_stretch_pow4 = inverse_stretch_pow2 * inverse_stretch_pow2
-    return shear_modulus_beta**2 * volume / (3 * viscosity) * (
-        held_stretch**4 * inverse_inelastic_stretch_2_pow4
-        - held_stretch**2 * inverse_inelastic_stretch_2_pow2 * inverse_inelastic_stretch_pow2 * stretch_pow2
-        - inelastic_stretch_pow2 * inverse_stretch_pow2
-        + inverse_inelastic_stretch_pow4 * stretch_pow4
-        - inelastic_stretch_2_pow2 / held_stretch**2
-        + inelastic_stretch_2_pow4 * inelastic_stretch_pow4 * inverse_stretch_pow4 / held_stretch**4
+    # shared by what follows
+    shared_1 = inelastic_stretch_2_pow2 * inelastic_stretch_pow2 * inverse_stretch_pow2 / held_stretch**2
+    # deviatoric stress on the dashpot [Pa]
+    deviatoric_stress_1 = (shear_modulus_beta / 3) * (
+        -held_stretch**2 * inverse_inelastic_stretch_2_pow2
+        + 2 * inverse_inelastic_stretch_pow2 * stretch_pow2
+        - shared_1
+    )
+    deviatoric_stress_2 = (shear_modulus_beta / 3) * (
+        2 * held_stretch**2 * inverse_inelastic_stretch_2_pow2
+        - inverse_inelastic_stretch_pow2 * stretch_pow2
+        - shared_1
+    )
+    deviatoric_stress_3 = (shear_modulus_beta / 3) * (
+        -held_stretch**2 * inverse_inelastic_stretch_2_pow2
+        - inverse_inelastic_stretch_pow2 * stretch_pow2
+        + 2 * inelastic_stretch_2_pow2 * inelastic_stretch_pow2 * inverse_stretch_pow2 / held_stretch**2
+    )
+    # strain rate of the dashpot [1/s]
+    strain_rate_1 = deviatoric_stress_1 / (2 * viscosity)
+    strain_rate_2 = deviatoric_stress_2 / (2 * viscosity)
+    strain_rate_3 = deviatoric_stress_3 / (2 * viscosity)
+    return volume * (
+        deviatoric_stress_1 * strain_rate_1
+        + deviatoric_stress_2 * strain_rate_2
+        + deviatoric_stress_3 * strain_rate_3
     )
 
 
@@ -474,8 +488,8 @@ def reaction_forces(state, inputs, parameters):
         + held_stretch * inverse_inelastic_stretch_2_pow2 * shear_modulus_beta
         - held_stretch * nominal_electric_field**2 * permittivity * stretch_pow2
         + held_stretch * shear_modulus_alpha
-        - inelastic_stretch_2_pow2 * inelastic_stretch_pow2 * inverse_stretch_pow2 * shear_modulus_beta /
-            held_stretch**3
+        - inelastic_stretch_2_pow2 * inelastic_stretch_pow2 * inverse_stretch_pow2
+            * shear_modulus_beta / held_stretch**3
         - inverse_stretch_pow2 * shear_modulus_alpha / held_stretch**3
     )
     return _stack((1,), reaction_force_2)

@@ -7,7 +7,7 @@ A square membrane of sides 2 L and thickness 2 H in the reference state; SI unit
 
 Governing equations, in the notation of Sheng et al. (2015), J. Appl. Phys., doi:10.1063/1.4913384:
 
-    T = 4 H L² ρ / 3 (
+    T = (4 H L² ρ / 3) (
         H² λ̇_UA2² / (λ_UA1² λ_UA2⁴)
         + 2 H² λ̇_UA1 λ̇_UA2 / (λ_UA1³ λ_UA2³)
         + H² λ̇_UA1² / (λ_UA1⁴ λ_UA2²)
@@ -48,7 +48,8 @@ Checked against the equations printed there:
 Provenance: digest of the governing equations 8ab1095c322086a2, SymPy 1.14.0.
 
 Every function takes `(state, inputs, parameters)`, each a sequence of numbers or arrays in the order
-of `STATE`, `INPUTS` and `PARAMETERS`; entries broadcast over any trailing shape, written `...` below.
+of `STATE`, `INPUTS` and `PARAMETERS`. Entries may be arrays; what is returned has, as its trailing shape
+(written `...` below), that of the entries it depends on, broadcast against each other.
 """
 
 from typing import NamedTuple
@@ -107,7 +108,7 @@ def reference_state(parameters):
     Returns:
         Array (6, ...) [the units of STATE].
     """
-    return _stack((6,), 1, 1, 0, 0, 1, 1)
+    return _stack((6,), 1.0, 1.0, 0.0, 0.0, 1.0, 1.0)
 
 
 def rhs(state, inputs, parameters):
@@ -152,7 +153,7 @@ def rhs(state, inputs, parameters):
     stretch_rate_2_pow2 = stretch_rate_2 * stretch_rate_2
     # shared by what follows
     shared_1 = inverse_stretch_1_pow3 * inverse_stretch_2_pow2
-    shared_2 = 2 * density * half_thickness**2 * volume / 3 * (
+    shared_2 = (2 * density * half_thickness**2 * volume / 3) * (
         inverse_stretch_1 * inverse_stretch_2 * stretch_rate_1 * stretch_rate_2
         + inverse_stretch_1_pow2 * stretch_rate_1_pow2
         + inverse_stretch_2_pow2 * stretch_rate_2_pow2
@@ -160,12 +161,12 @@ def rhs(state, inputs, parameters):
     shared_3 = inverse_stretch_1_pow2 * inverse_stretch_2_pow3
     shared_4 = nominal_electric_field**2 * permittivity * volume
     # mass matrix [kg m^2]
-    mass_11 = density * volume / 3 * (
+    mass_11 = (density * volume / 3) * (
         half_length**2
         + half_thickness**2 * inverse_stretch_1_pow4 * inverse_stretch_2_pow2
     )
     mass_12 = density * half_thickness**2 * inverse_stretch_1_pow3 * inverse_stretch_2_pow3 * volume / 3
-    mass_22 = density * volume / 3 * (
+    mass_22 = (density * volume / 3) * (
         half_length**2
         + half_thickness**2 * inverse_stretch_1_pow2 * inverse_stretch_2_pow4
     )
@@ -202,13 +203,13 @@ def rhs(state, inputs, parameters):
     stretch_acceleration_1 = (-mass_12 * net_force_2 + mass_22 * net_force_1) / mass_determinant
     stretch_acceleration_2 = (mass_11 * net_force_2 - mass_12 * net_force_1) / mass_determinant
     # flow of the dashpot [1/s]
-    inelastic_stretch_rate_1 = shear_modulus_beta / (6 * viscosity) * (
+    inelastic_stretch_rate_1 = (shear_modulus_beta / (6 * viscosity)) * (
         -inelastic_stretch_1 * inverse_inelastic_stretch_2_pow2 * stretch_2_pow2
-        - inelastic_stretch_1_pow3 * inelastic_stretch_2_pow2 * inverse_stretch_1_pow2 *
-            inverse_stretch_2_pow2
+        - inelastic_stretch_1_pow3 * inelastic_stretch_2_pow2 * inverse_stretch_1_pow2
+            * inverse_stretch_2_pow2
         + 2 * inverse_inelastic_stretch_1 * stretch_1_pow2
     )
-    inelastic_stretch_rate_2 = shear_modulus_beta / (6 * viscosity) * (
+    inelastic_stretch_rate_2 = (shear_modulus_beta / (6 * viscosity)) * (
         -inelastic_stretch_1_pow2 * inelastic_stretch_2_pow3 * inverse_stretch_1_pow2 * inverse_stretch_2_pow2
         - inelastic_stretch_2 * inverse_inelastic_stretch_1_pow2 * stretch_1_pow2
         + 2 * inverse_inelastic_stretch_2 * stretch_2_pow2
@@ -290,11 +291,11 @@ def jacobian(state, inputs, parameters):
         + 2 * shared_2 * shared_6
         + 2 * shared_2 * shear_modulus_alpha
     )
-    shared_14 = 2 * density * volume / 3 * (
+    shared_14 = (2 * density * volume / 3) * (
         2 * inverse_stretch_1 * stretch_rate_1
         + inverse_stretch_2 * stretch_rate_2
     )
-    shared_15 = 2 * density * volume / 3 * (
+    shared_15 = (2 * density * volume / 3) * (
         inverse_stretch_1 * stretch_rate_1
         + 2 * inverse_stretch_2 * stretch_rate_2
     )
@@ -308,11 +309,11 @@ def jacobian(state, inputs, parameters):
     mass_12 = density * shared_3 * volume / 3
     mass_22 = density * volume * (half_length**2 + half_thickness**2 * shared_4) / 3
     mass_determinant = mass_11 * mass_22 - mass_12**2
-    # slope of (net force - mass matrix times acceleration) with respect to the state
+    # slope of (net force - mass matrix times acceleration), [J] per unit of the state
     force_slope_1_1 = volume * (
         density * half_thickness**2 * inverse_stretch_1_pow4 * inverse_stretch_2_pow3 * stretch_acceleration_2
-        + 4 * density * half_thickness**2 * inverse_stretch_1_pow5 * inverse_stretch_2_pow2 *
-            stretch_acceleration_1 / 3
+        + 4 * density * half_thickness**2 * inverse_stretch_1_pow5 * inverse_stretch_2_pow2
+            * stretch_acceleration_1 / 3
         - inverse_inelastic_stretch_1_pow2 * shear_modulus_beta
         - 10 * inverse_stretch_1_pow6 * inverse_stretch_2_pow2 * shared_9 / 3
         - inverse_stretch_2_pow3 * shared_10 * shared_11
@@ -324,8 +325,8 @@ def jacobian(state, inputs, parameters):
     )
     force_slope_1_2 = volume * (
         density * half_thickness**2 * inverse_stretch_1_pow3 * inverse_stretch_2_pow4 * stretch_acceleration_2
-        + 2 * density * half_thickness**2 * inverse_stretch_1_pow4 * inverse_stretch_2_pow3 *
-            stretch_acceleration_1 / 3
+        + 2 * density * half_thickness**2 * inverse_stretch_1_pow4 * inverse_stretch_2_pow3
+            * stretch_acceleration_1 / 3
         - 4 * inverse_stretch_1_pow5 * inverse_stretch_2_pow3 * shared_9 / 3
         - 8 * shared_12 / 3
         - shared_13
@@ -337,23 +338,23 @@ def jacobian(state, inputs, parameters):
         + inverse_inelastic_stretch_1_pow3 * stretch_1
     )
     force_slope_1_6 = (
-        2 * inelastic_stretch_1_pow2 * inelastic_stretch_2 * inverse_stretch_1_pow3 * inverse_stretch_2_pow2 *
-            shear_modulus_beta * volume
+        2 * inelastic_stretch_1_pow2 * inelastic_stretch_2 * inverse_stretch_1_pow3 * inverse_stretch_2_pow2
+            * shear_modulus_beta * volume
     )
     force_slope_2_1 = volume * (
-        2 * density * half_thickness**2 * inverse_stretch_1_pow3 * inverse_stretch_2_pow4 *
-            stretch_acceleration_2 / 3
-        + density * half_thickness**2 * inverse_stretch_1_pow4 * inverse_stretch_2_pow3 *
-            stretch_acceleration_1
+        2 * density * half_thickness**2 * inverse_stretch_1_pow3 * inverse_stretch_2_pow4
+            * stretch_acceleration_2 / 3
+        + density * half_thickness**2 * inverse_stretch_1_pow4 * inverse_stretch_2_pow3
+            * stretch_acceleration_1
         - inverse_stretch_2_pow3 * shared_10 * shared_9
         - 4 * shared_12 / 3
         - shared_13
     )
     force_slope_2_2 = volume * (
-        4 * density * half_thickness**2 * inverse_stretch_1_pow2 * inverse_stretch_2_pow5 *
-            stretch_acceleration_2 / 3
-        + density * half_thickness**2 * inverse_stretch_1_pow3 * inverse_stretch_2_pow4 *
-            stretch_acceleration_1
+        4 * density * half_thickness**2 * inverse_stretch_1_pow2 * inverse_stretch_2_pow5
+            * stretch_acceleration_2 / 3
+        + density * half_thickness**2 * inverse_stretch_1_pow3 * inverse_stretch_2_pow4
+            * stretch_acceleration_1
         - inverse_inelastic_stretch_2_pow2 * shear_modulus_beta
         - 10 * inverse_stretch_1_pow2 * inverse_stretch_2_pow6 * shared_7 / 3
         - 8 * inverse_stretch_1_pow3 * inverse_stretch_2_pow5 * shared_11 / 3
@@ -366,44 +367,44 @@ def jacobian(state, inputs, parameters):
     force_slope_2_3 = shared_14 * shared_3
     force_slope_2_4 = half_thickness**2 * shared_15 * shared_4
     force_slope_2_5 = (
-        2 * inelastic_stretch_1 * inelastic_stretch_2_pow2 * inverse_stretch_1_pow2 * inverse_stretch_2_pow3 *
-            shear_modulus_beta * volume
+        2 * inelastic_stretch_1 * inelastic_stretch_2_pow2 * inverse_stretch_1_pow2 * inverse_stretch_2_pow3
+            * shear_modulus_beta * volume
     )
     force_slope_2_6 = 2 * shear_modulus_beta * volume * (
         inelastic_stretch_2 * shared_19
         + inverse_inelastic_stretch_2_pow3 * stretch_2
     )
-    # slope of the dashpot rates with respect to the state
-    dashpot_slope_1_1 = shear_modulus_beta / (3 * viscosity) * (
+    # slope of the dashpot rates, [1/s] per unit of the state
+    dashpot_slope_1_1 = (shear_modulus_beta / (3 * viscosity)) * (
         inelastic_stretch_1_pow3 * shared_17
         + 2 * inverse_inelastic_stretch_1 * stretch_1
     )
-    dashpot_slope_1_2 = inelastic_stretch_1 * shear_modulus_beta / (3 * viscosity) * (
+    dashpot_slope_1_2 = (inelastic_stretch_1 * shear_modulus_beta / (3 * viscosity)) * (
         inelastic_stretch_2_pow2 * shared_19
         - inverse_inelastic_stretch_2_pow2 * stretch_2
     )
-    dashpot_slope_1_5 = -shear_modulus_beta / (6 * viscosity) * (
+    dashpot_slope_1_5 = (-shear_modulus_beta / (6 * viscosity)) * (
         2 * inverse_inelastic_stretch_1_pow2 * stretch_1_pow2
         + inverse_inelastic_stretch_2_pow2 * stretch_2_pow2
         + shared_20
     )
-    dashpot_slope_1_6 = inelastic_stretch_1 * shear_modulus_beta / (3 * viscosity) * (
+    dashpot_slope_1_6 = (inelastic_stretch_1 * shear_modulus_beta / (3 * viscosity)) * (
         -inelastic_stretch_2 * inverse_stretch_2_pow2 * shared_18
         + inverse_inelastic_stretch_2_pow3 * stretch_2_pow2
     )
-    dashpot_slope_2_1 = inelastic_stretch_2 * shear_modulus_beta / (3 * viscosity) * (
+    dashpot_slope_2_1 = (inelastic_stretch_2 * shear_modulus_beta / (3 * viscosity)) * (
         inelastic_stretch_1_pow2 * shared_17
         - inverse_inelastic_stretch_1_pow2 * stretch_1
     )
-    dashpot_slope_2_2 = shear_modulus_beta / (3 * viscosity) * (
+    dashpot_slope_2_2 = (shear_modulus_beta / (3 * viscosity)) * (
         inelastic_stretch_2_pow3 * shared_19
         + 2 * inverse_inelastic_stretch_2 * stretch_2
     )
-    dashpot_slope_2_5 = inelastic_stretch_2 * shear_modulus_beta / (3 * viscosity) * (
+    dashpot_slope_2_5 = (inelastic_stretch_2 * shear_modulus_beta / (3 * viscosity)) * (
         -inelastic_stretch_1 * inverse_stretch_1_pow2 * shared_16
         + inverse_inelastic_stretch_1_pow3 * stretch_1_pow2
     )
-    dashpot_slope_2_6 = -shear_modulus_beta / (6 * viscosity) * (
+    dashpot_slope_2_6 = (-shear_modulus_beta / (6 * viscosity)) * (
         inverse_inelastic_stretch_1_pow2 * stretch_1_pow2
         + 2 * inverse_inelastic_stretch_2_pow2 * stretch_2_pow2
         + shared_20
@@ -500,12 +501,12 @@ def kinetic_energy(state, inputs, parameters):
     inverse_stretch_2_pow4 = inverse_stretch_2 * inverse_stretch_2_pow3
     stretch_rate_1_pow2 = stretch_rate_1 * stretch_rate_1
     stretch_rate_2_pow2 = stretch_rate_2 * stretch_rate_2
-    return density * volume / 6 * (
+    return (density * volume / 6) * (
         half_length**2 * stretch_rate_1_pow2
         + half_length**2 * stretch_rate_2_pow2
         + half_thickness**2 * inverse_stretch_1_pow2 * inverse_stretch_2_pow4 * stretch_rate_2_pow2
-        + 2 * half_thickness**2 * inverse_stretch_1_pow3 * inverse_stretch_2_pow3 * stretch_rate_1 *
-            stretch_rate_2
+        + 2 * half_thickness**2 * inverse_stretch_1_pow3 * inverse_stretch_2_pow3 * stretch_rate_1
+            * stretch_rate_2
         + half_thickness**2 * inverse_stretch_1_pow4 * inverse_stretch_2_pow2 * stretch_rate_1_pow2
     )
 
@@ -534,13 +535,13 @@ def potential_energy(state, inputs, parameters):
     stretch_2_pow2 = stretch_2 * stretch_2
     inverse_stretch_2 = 1 / stretch_2
     inverse_stretch_2_pow2 = inverse_stretch_2 * inverse_stretch_2
-    spring_alpha_energy = shear_modulus_alpha * volume / 2 * (
+    spring_alpha_energy = (shear_modulus_alpha * volume / 2) * (
         inverse_stretch_1_pow2 * inverse_stretch_2_pow2
         + stretch_1_pow2
         + stretch_2_pow2
         - 3
     )
-    spring_beta_energy = shear_modulus_beta * volume / 2 * (
+    spring_beta_energy = (shear_modulus_beta * volume / 2) * (
         inelastic_stretch_1_pow2 * inelastic_stretch_2_pow2 * inverse_stretch_1_pow2 * inverse_stretch_2_pow2
         + inverse_inelastic_stretch_1_pow2 * stretch_1_pow2
         + inverse_inelastic_stretch_2_pow2 * stretch_2_pow2
@@ -577,34 +578,46 @@ def dashpot_power(state, inputs, parameters):
     volume = 8 * half_length**2 * half_thickness
     # powers of the state
     inelastic_stretch_1_pow2 = inelastic_stretch_1 * inelastic_stretch_1
-    inelastic_stretch_1_pow4 = inelastic_stretch_1_pow2 * inelastic_stretch_1_pow2
     inverse_inelastic_stretch_1 = 1 / inelastic_stretch_1
     inverse_inelastic_stretch_1_pow2 = inverse_inelastic_stretch_1 * inverse_inelastic_stretch_1
-    inverse_inelastic_stretch_1_pow4 = inverse_inelastic_stretch_1_pow2 * inverse_inelastic_stretch_1_pow2
     inelastic_stretch_2_pow2 = inelastic_stretch_2 * inelastic_stretch_2
-    inelastic_stretch_2_pow4 = inelastic_stretch_2_pow2 * inelastic_stretch_2_pow2
     inverse_inelastic_stretch_2 = 1 / inelastic_stretch_2
     inverse_inelastic_stretch_2_pow2 = inverse_inelastic_stretch_2 * inverse_inelastic_stretch_2
-    inverse_inelastic_stretch_2_pow4 = inverse_inelastic_stretch_2_pow2 * inverse_inelastic_stretch_2_pow2
     stretch_1_pow2 = stretch_1 * stretch_1
-    stretch_1_pow4 = stretch_1_pow2 * stretch_1_pow2
     inverse_stretch_1 = 1 / stretch_1
     inverse_stretch_1_pow2 = inverse_stretch_1 * inverse_stretch_1
-    inverse_stretch_1_pow4 = inverse_stretch_1_pow2 * inverse_stretch_1_pow2
     stretch_2_pow2 = stretch_2 * stretch_2
-    stretch_2_pow4 = stretch_2_pow2 * stretch_2_pow2
     inverse_stretch_2 = 1 / stretch_2
     inverse_stretch_2_pow2 = inverse_stretch_2 * inverse_stretch_2
-    inverse_stretch_2_pow4 = inverse_stretch_2_pow2 * inverse_stretch_2_pow2
-    return shear_modulus_beta**2 * volume / (3 * viscosity) * (
-        -inelastic_stretch_1_pow2 * inverse_stretch_1_pow2
-        + inelastic_stretch_1_pow4 * inelastic_stretch_2_pow4 * inverse_stretch_1_pow4 *
-            inverse_stretch_2_pow4
-        - inelastic_stretch_2_pow2 * inverse_stretch_2_pow2
-        - inverse_inelastic_stretch_1_pow2 * inverse_inelastic_stretch_2_pow2 * stretch_1_pow2 *
-            stretch_2_pow2
-        + inverse_inelastic_stretch_1_pow4 * stretch_1_pow4
-        + inverse_inelastic_stretch_2_pow4 * stretch_2_pow4
+    # shared by what follows
+    shared_1 = (
+        inelastic_stretch_1_pow2 * inelastic_stretch_2_pow2 * inverse_stretch_1_pow2 * inverse_stretch_2_pow2
+    )
+    # deviatoric stress on the dashpot [Pa]
+    deviatoric_stress_1 = (shear_modulus_beta / 3) * (
+        2 * inverse_inelastic_stretch_1_pow2 * stretch_1_pow2
+        - inverse_inelastic_stretch_2_pow2 * stretch_2_pow2
+        - shared_1
+    )
+    deviatoric_stress_2 = (shear_modulus_beta / 3) * (
+        -inverse_inelastic_stretch_1_pow2 * stretch_1_pow2
+        + 2 * inverse_inelastic_stretch_2_pow2 * stretch_2_pow2
+        - shared_1
+    )
+    deviatoric_stress_3 = (shear_modulus_beta / 3) * (
+        2 * inelastic_stretch_1_pow2 * inelastic_stretch_2_pow2 * inverse_stretch_1_pow2
+            * inverse_stretch_2_pow2
+        - inverse_inelastic_stretch_1_pow2 * stretch_1_pow2
+        - inverse_inelastic_stretch_2_pow2 * stretch_2_pow2
+    )
+    # strain rate of the dashpot [1/s]
+    strain_rate_1 = deviatoric_stress_1 / (2 * viscosity)
+    strain_rate_2 = deviatoric_stress_2 / (2 * viscosity)
+    strain_rate_3 = deviatoric_stress_3 / (2 * viscosity)
+    return volume * (
+        deviatoric_stress_1 * strain_rate_1
+        + deviatoric_stress_2 * strain_rate_2
+        + deviatoric_stress_3 * strain_rate_3
     )
 
 

@@ -35,7 +35,26 @@ CASES = {
         _simulate("pure_shear", formulation="x", held_stretch=2.0),
         "formulation .*consistent, as_printed",
     ),
-    "no formulation": (_simulate("uniaxial", formulation="as_printed"), "uniaxial comes in one formulation"),
+    "no formulation": (
+        _simulate("uniaxial", formulation="as_printed"),
+        "formulation 'as_printed': the model uniaxial leaves no choice; .* give 'consistent'",
+    ),
+    "printed is not consistent": (
+        _simulate("pure_shear_as_printed", formulation="consistent", held_stretch=2.0),
+        "formulation 'consistent': the model pure_shear_as_printed leaves no choice; .* give 'as_printed'",
+    ),
+    "free is not held": (
+        _simulate("pure_shear_consistent_free", lateral_dashpot="held", held_stretch=2.0),
+        "lateral_dashpot 'held': the model pure_shear_consistent_free leaves no choice; .* give 'free'",
+    ),
+    "module is not consistent": (
+        _simulate(dl.load_model("pure_shear_as_printed"), formulation="consistent", held_stretch=2.0),
+        "formulation 'consistent': the model pure_shear_as_printed",
+    ),
+    "sweep is not consistent": (
+        _sweep("pure_shear_as_printed", formulation="consistent", held_stretch=2.0),
+        "formulation 'consistent': the model pure_shear_as_printed",
+    ),
     "dashpot": (
         _simulate("pure_shear", lateral_dashpot="loose", held_stretch=2.0),
         "lateral_dashpot .* held, free",
@@ -46,24 +65,68 @@ CASES = {
     ),
     "no dashpot": (
         _simulate(lateral_dashpot="held"),
-        "lateral_dashpot 'held': equal_biaxial leaves no choice",
+        "lateral_dashpot 'held': the model equal_biaxial leaves no choice; leave it out",
     ),
     "held missing": (_simulate("pure_shear"), "held_stretch .* missing: pure_shear_consistent needs it"),
-    "held refused": (_simulate(held_stretch=2.0), "held_stretch 2.0 .* equal_biaxial holds no stretch"),
+    "held refused": (_simulate(held_stretch=2.0), "held_stretch 2 .* equal_biaxial holds no stretch"),
     "held negative": (_simulate("pure_shear", held_stretch=-2.0), "held_stretch must be positive .* -2"),
     "force text": (_simulate(force="strong"), "force must be a number in N, got 'strong'"),
     "force nan": (_simulate(force=NAN), "force must be finite, got nan N"),
     "field inf": (_simulate(field=INF), "field must be finite, got inf V/m"),
     "force lanes": (_simulate(force=[0.1, 0.2]), "force must be a single number, got .* N"),
-    "duration zero": (_simulate(duration=0.0), "duration must be positive and finite, got 0 s"),
+    "force huge": (_simulate(force=10**400), "force must be finite, got more than 1.8e308 N"),
+    "force hugely negative": (
+        _simulate(force=[-(10**400)]),
+        "force must be finite, got .less than -1.8e308. N",
+    ),
+    "force complex": (_simulate(force=1 + 2j), r"force must be a number in N, got \(1\+2j\)"),
+    "force complex array": (_simulate(force=np.array([0.1 + 1j])), "force must be a number in N"),
+    "force complex scalar": (_simulate(force=np.complex128(0.1)), "force must be a number in N"),
+    "force truth": (_simulate(force=np.array([True])), "force must be a number in N"),
+    "force table": (
+        _simulate(force=np.ones((2, 2))),
+        r"force must be a single number, got \[1, 1, 1, 1\] of shape \(2, 2\) N",
+    ),
+    "density complex": (_simulate(density=1e3 + 1j), r"density must be a number in kg/m\^3"),
+    "state complex": (_simulate(initial_state=np.array([1, 0, 1 + 1j])), "initial_state must be a number in"),
+    "duration zero": (_simulate(duration=0.0), "duration must lie from 1e-09 s to 1000000 s, got 0 s"),
+    "duration short": (_simulate(duration=1e-10), "duration must lie from 1e-09 s to .* got 1e-10 s"),
+    "duration long": (_simulate(duration=1e7), "duration must lie from 1e-09 s to 1000000 s, got 10000000 s"),
     "duration nan": (_simulate(duration=NAN), "duration .* nan s"),
+    "length beyond floats": (
+        _simulate(half_length=1e300),
+        "equations of equal_biaxial are beyond double precision with half_length = 1e[+]300 m",
+    ),
+    "length below floats": (_simulate(half_length=1e-300), "with half_length = 1e-300 m"),
+    "viscosity below floats": (_simulate(viscosity=1e-320), "with viscosity = .*e-321 Pa s"),
+    "field beyond floats": (_simulate(field=1e200), "with field = 1e[+]200 V/m"),
+    "held beyond floats": (
+        _simulate("pure_shear", held_stretch=1e120),
+        "pure_shear_consistent are beyond double precision with held_stretch = 1e[+]120",
+    ),
+    "sweep beyond floats": (_sweep(half_thickness=1e200), "with half_thickness = 1e[+]200 m"),
+    "limits tuple": (
+        _simulate(limits=(1e-3, 100)),
+        r"limits must be a delagrange.Limits, got \[0.001, 100\]",
+    ),
+    "limits none": (_simulate(limits=None), "limits must be a delagrange.Limits, got None"),
+    "samples many": (
+        _simulate(samples=10**12),
+        "samples must be an integer from 2 to 10000000, got 1e[+]12",
+    ),
     "rtol small": (_simulate(rtol=1e-15), "rtol must lie from 1e-13 to 0.01, got 1e-15"),
     "rtol large": (_simulate(rtol=1.0), "rtol must lie"),
     "atol zero": (_simulate(atol=0.0), "atol must lie from 1e-18"),
+    "atol large": (
+        _simulate(atol=1),
+        "atol must lie from 1e-18 to 0.01 in the unit of each state variable, got 1$",
+    ),
     "method": (_simulate(method="RK4"), "method must be one of DOP853, .*'RK4'"),
+    "method array": (_simulate(method=np.ones((2, 2))), "method must be one of DOP853"),
+    "model array": (_simulate(np.ones((9, 9))), "unknown model .* of shape"),
     "table short": (
         _simulate(field=dl.Tabulated([0.0, 5e-4], [0.0, 1e6])),
-        "nominal_electric_field: the table covers 0 s to 0.0005 s .* 0 s to 0.001 s",
+        "^field table covers 0 s to 0.0005 s .* 0 s to 0.001 s",
     ),
     "state length": (
         _simulate(initial_state=[1.0, 0.0]),
@@ -74,7 +137,7 @@ CASES = {
     "time unsorted": (_simulate(time=[0.0, 5e-4, 2e-4]), "time must be strictly increasing"),
     "time outside": (_simulate(time=[0.0, 2e-3]), "time must lie from 0 s to 0.001 s"),
     "time twice": (_simulate(time=[0.0], samples=5), "time and samples = 5 both given"),
-    "samples": (_simulate(samples=1), "samples must be an integer of at least 2, got 1"),
+    "samples": (_simulate(samples=1), "samples must be an integer from 2 to 10000000, got 1"),
     "frequency empty": (_sweep(frequency=[]), "frequency must be .* at least one value in Hz"),
     "frequency unsorted": (
         _sweep(frequency=[400.0, 300.0]),
@@ -105,7 +168,7 @@ CASES = {
     "extrema": (_sweep(extrema="best"), "extrema must be one of dense, samples, steps"),
     "engine pair": (_sweep(engine="scipy", extrema="steps"), "engine 'scipy' has .* only"),
     "sweep rtol": (_sweep(rtol=0.0), "rtol must lie"),
-    "sweep table": (_sweep(force=dl.Tabulated([0.0, 5e-4], [0.0, 0.1])), "force: the table covers"),
+    "sweep table": (_sweep(force=dl.Tabulated([0.0, 5e-4], [0.0, 0.1])), "force table covers"),
     "limits": (lambda: dl.Limits(smallest_stretch=2.0), "smallest_stretch below 1"),
     "limits sign": (lambda: dl.Limits(largest_stretch=-1.0), "largest_stretch must be positive"),
 }
@@ -136,13 +199,50 @@ def _model_without(*names: str) -> ModuleType:
 def test_a_force_where_the_model_has_none():
     unforced = _model_without("force")
     with pytest.raises(
-        ValueError, match=r"force given as Constant\(value=0.5\), but unforced has no such input"
+        ValueError,
+        match=r"force given as Constant\(value=0.5\), but unforced has no such input; it has field",
     ):
         dl.simulate(unforced, force=0.5, duration=1e-3)
     run = dl.simulate(unforced, field=1e6, duration=1e-3)
     same = dl.simulate("equal_biaxial", field=1e6, duration=1e-3)
     np.testing.assert_array_equal(run["stretch"], same["stretch"])
     assert "force" not in run
+
+
+@pytest.mark.parametrize(
+    ("lost", "options", "message"),
+    [
+        ("jacobian", {"method": "Radau"}, "method 'Radau' needs jacobian, which the model unforced does not"),
+        ("jacobian", {"method": "auto"}, "method 'auto' needs jacobian"),
+        ("force_power", {"energies": True}, "energies=True needs force_power, which the model unforced"),
+    ],
+)
+def test_a_module_that_lacks_what_is_asked_of_it(lost, options, message):
+    module = _model_without("force")
+    delattr(module, lost)
+    assert dl.simulate(module, field=1e6, duration=1e-3).attrs["status"] == "completed"
+    with pytest.raises(ValueError, match=message):
+        dl.simulate(module, field=1e6, duration=1e-3, **options)
+
+
+def test_a_field_that_grows_beyond_floats_is_a_loss():
+    run = dl.simulate("equal_biaxial", field=dl.Step(1e200, 5e-4), duration=1e-3)
+    assert run.attrs["status"] in ("collapsed", "diverged")
+    assert run.attrs["status_time"] == pytest.approx(5e-4)
+
+
+@pytest.mark.parametrize(
+    ("model", "choice"),
+    [
+        ("pure_shear_as_printed", {"formulation": "as-printed", "lateral_dashpot": "held"}),
+        ("pure_shear_consistent", {"formulation": "consistent", "lateral_dashpot": "held"}),
+        ("pure_shear_consistent_free", {"formulation": "consistent", "lateral_dashpot": "free"}),
+        ("uniaxial", {"formulation": "consistent"}),
+    ],
+)
+def test_a_full_name_may_be_said_again_in_words(model, choice):
+    module = dl.load_model(model)
+    assert dl.load_model(model, **choice) is dl.load_model(module, **choice) is module
 
 
 def test_hyphens_full_names_and_modules_are_accepted():

@@ -55,4 +55,11 @@ def test_window_and_ramp():
     assert quantities.window(None) is None
     assert quantities.window("0.05:0.1") == (0.05, 0.1)
     assert quantities.ramp("force-ramp", "0:1:2", "N") == [0.0, 1.0, 2.0]
+    for text, says in (
+        ("nan:1:1", "start .* nan N"),
+        ("0:inf:1", "stop .* inf N"),
+        ("0:1:-1", "duration .* -1 s"),
+    ):
+        with pytest.raises(ValueError, match=f"^force-ramp {says}"):
+            quantities.ramp("force-ramp", text, "N")
     assert quantities.ramp("force-ramp", "0:1:2:3", "N") == [0.0, 1.0, 2.0, 3.0]

@@ -173,6 +173,32 @@ def test_a_table_drives_force_and_field(tmp_path, capsys, heading):
     xr.testing.assert_equal(run, same)
 
 
+def test_a_byte_order_mark_of_a_spreadsheet_costs_no_line(tmp_path, capsys):
+    table = tmp_path / "force.csv"
+    table.write_bytes("0,0.2\r\n0.005,0.4\r\n0.01,0.1\r\n".encode("utf-8-sig"))
+    run = run_of(tmp_path, capsys, "equal-biaxial", "--duration", "0.01", "--force-csv", str(table))
+    np.testing.assert_allclose(run["force"].values[[0, 1000, 2000]], [0.2, 0.4, 0.1])
+
+
+def test_a_field_table_that_is_too_short_is_called_that(tmp_path, capsys):
+    table = tmp_path / "field.csv"
+    table.write_text("0,0\n0.005,1e6\n", encoding="utf-8")
+    line = refused(capsys, *SIMULATE, "--field-csv", str(table))
+    assert "field table covers 0 s to 0.005 s and does not cover the run, 0 s to 0.01 s" in line
+
+
+@pytest.mark.parametrize(
+    ("given", "dimensions"), [(["0.2"], ("frequency",)), (["0.2,0.5"], ("force", "frequency"))]
+)
+def test_a_value_given_once_makes_no_axis(tmp_path, capsys, given, dimensions):
+    out = tmp_path / "response.nc"
+    done(
+        capsys, "sweep", "equal-biaxial", "--force", *given, "--field-amplitude", "1e6", "--frequency", "300,400",
+        "--duration", "1e-3", "--out", str(out),
+    )  # fmt: skip
+    assert xr.load_dataset(out)["amplitude"].dims == dimensions
+
+
 def test_a_lost_run_is_a_result_and_says_so(tmp_path, capsys):
     out = tmp_path / "run.nc"
     lost = ["simulate", "equal-biaxial", "--field-amplitude", "5e7", "--duration", "0.01", "--out", str(out)]
@@ -282,7 +308,44 @@ SWEEP = ("sweep", "equal-biaxial", "--duration", "0.01", "--field-amplitude", "1
         ([*SIMULATE, "--viscosity", "nan"], ["viscosity", "nan Pa s", "finite"]),
         ([*SIMULATE, "--relaxation-time", "0"], ["relaxation_time", "0 s", "positive"]),
         ([*SIMULATE, "--relaxation-time", "1", "--viscosity", "1"], ["relaxation_time", "viscosity"]),
-        ([*SIMULATE, "--force", "inf"], ["inf", "finite"]),
+        ([*SIMULATE, "--force", "inf"], ["--force must be finite, got inf N"]),
+        (
+            [*SIMULATE, "--field-amplitude", "nan", "--frequency", "300"],
+            ["--field-amplitude must be finite, got nan V/m"],
+        ),
+        (
+            [*SIMULATE, "--field-amplitude", "1", "--frequency", "9", "--field-bias", "inf"],
+            ["--field-bias must be finite, got inf V/m"],
+        ),
+        (
+            [*SIMULATE, "--force", "1", "--force-frequency", "9", "--force-phase", "nan"],
+            ["--force-phase must be finite, got nan rad"],
+        ),
+        (
+            [*SIMULATE, "--force", "1", "--force-step-time", "inf"],
+            ["--force-step-time must be finite, got inf s"],
+        ),
+        ([*SIMULATE, "--field-ramp", "0:nan:1"], ["field-ramp stop must be finite, got nan V/m"]),
+        (
+            [*SIMULATE, "--half-length", "1e300", "--force", "1"],
+            ["double precision", "half_length = 1e+300 m"],
+        ),
+        ([*SWEEP, "--half-length", "1e300"], ["double precision", "half_length = 1e+300 m"]),
+        ([*SIMULATE, "--samples", "1000000000000"], ["samples", "from 2 to 10000000", "1e+12"]),
+        (
+            [
+                "simulate",
+                "pure-shear-as-printed",
+                "--formulation",
+                "consistent",
+                "--held-stretch",
+                "2",
+                "--duration",
+                "0.01",
+            ],
+            ["formulation 'consistent'", "pure_shear_as_printed", "'as_printed'"],
+        ),
+        ([*SIMULATE, "--duration", "1e-10"], ["duration", "1e-09 s to 1000000 s", "1e-10 s"]),
         (
             ["simulate", "triaxial", "--duration", "1"],
             ["'triaxial'", "equal_biaxial", "uniaxial", "pure_shear"],
@@ -298,11 +361,11 @@ SWEEP = ("sweep", "equal-biaxial", "--duration", "0.01", "--field-amplitude", "1
             ["held_stretch", "0", "positive"],
         ),
         ([*SIMULATE, "--held-stretch", "2"], ["held_stretch", "2"]),
-        (["simulate", "uniaxial", "--duration", "0"], ["duration", "0 s", "positive"]),
+        (["simulate", "uniaxial", "--duration", "0"], ["duration", "1e-09 s to 1000000 s", "0 s"]),
         ([*SIMULATE, "--rtol", "1"], ["rtol", "1e-13", "0.01"]),
-        ([*SIMULATE, "--atol", "-1"], ["atol", "-1"]),
+        ([*SIMULATE, "--atol", "-1"], ["atol must lie from 1e-18 to 0.01 in the unit of each", ", got -1"]),
         ([*SIMULATE, "--method", "Euler"], ["method", "'Euler'", "DOP853", "Radau"]),
-        ([*SIMULATE, "--samples", "1"], ["samples", "1", "at least 2"]),
+        ([*SIMULATE, "--samples", "1"], ["samples", "got 1", "from 2"]),
         ([*SIMULATE, "--field-amplitude", "1e6", "--frequency", "-3"], ["frequency", "-3 Hz", "positive"]),
         ([*SIMULATE, "--frequency", "300"], ["--frequency", "300 Hz", "--field-amplitude"]),
         (
@@ -341,8 +404,12 @@ def test_bad_input_is_one_line_that_names_it(tmp_path, capsys, monkeypatch, argu
 @pytest.mark.parametrize(
     ("content", "says"),
     [
-        ("0,0\n0.005,1\n", ["force", "0.005 s", "0.01 s"]),
-        ("0,0\n0.02,1\n0.01,1\n", ["times", "increasing"]),
+        ("0,0\n0.005,1\n", ["force table covers", "0.005 s", "0.01 s"]),
+        ("0,0\n0.02,1\n0.01,1\n", ["force table", "time must be strictly increasing", "s"]),
+        ("0,0\n0.02,nan\n", ["force table", "value must be finite", "nan", " N"]),
+        ("0,0\n", ["force table", "holds 1 line", "two or more", "time [s]", "value [N]"]),
+        ("0,x\n0,0\n0.02,1\n", ["force table", "line 1: value", "N", "'x'"]),
+        ("x,0\n0,0\n0.02,1\n", ["force table", "line 1: time", "s", "'x'"]),
         ("0,0\n0.02,x\n", ["line 2", "value", "N", "'x'"]),
         ("0,0,0\n", ["line 1", "3 columns"]),
         ("time,force\n", ["empty", "time [s]", "[N]"]),

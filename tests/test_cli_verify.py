@@ -166,6 +166,16 @@ def test_derive_check_finds_a_stale_module(verdicts, derived, tmp_path, capsys):
     assert main(["derive", "--check", "--out", str(tmp_path), "--quiet"]) == 1
 
 
+@pytest.mark.parametrize("name", ["none", "file"])
+def test_a_folder_to_check_must_be_there(tmp_path, monkeypatch, capsys, name):
+    monkeypatch.setattr(pipeline, "walk", lambda: pytest.fail("derived"))
+    (tmp_path / "file").write_text("", encoding="utf-8")
+    assert main(["derive", "--check", "--out", str(tmp_path / name), "--quiet"]) == 2
+    captured = capsys.readouterr()
+    (line,) = captured.err.splitlines()
+    assert f"folder {tmp_path / name} cannot be read" in line and captured.out == ""
+
+
 def test_ctrl_c_while_deriving(monkeypatch, capsys):
     def interrupted():
         raise KeyboardInterrupt

@@ -88,7 +88,12 @@ def test_a_number_means_a_constant():
     [
         (lambda: Sine(1.0, 0.0), "Sine frequency .* 0 Hz"),
         (lambda: Sine(1.0, -3.0), "Sine frequency"),
-        (lambda: Sine(float("nan"), 1.0), "Sine amplitude"),
+        (
+            lambda: Sine(float("nan"), 1.0),
+            "Sine amplitude must be finite, got nan in the unit of the driven input",
+        ),
+        (lambda: Sine(1j, 1.0), "Sine amplitude must be a number"),
+        (lambda: Tabulated([0.0, 1.0], np.ones((2, 2))), "one length .* 2 times"),
         (lambda: Constant("a"), "Constant value"),
         (lambda: Step(1.0, time=float("inf")), "Step time .* s"),
         (lambda: Ramp(0.0, 1.0, duration=0.0), "Ramp duration .* 0 s"),

@@ -50,9 +50,23 @@ def random_inputs(rng, shape=()):
     return np.array([rng.uniform(-0.5, 1.0, shape), rng.uniform(-6e6, 6e6, shape)])
 
 
+def _scale(function, theirs, parameters):
+    """Size of what is added up: rounding is relative to that, not to what is left of it."""
+    L, H, _, _, alpha, beta, viscosity = parameters[:7]
+    volume = 8 * L**2 * H
+    floors = {
+        "potential_energy": volume * (alpha + beta),
+        "dashpot_power": volume * beta**2 / viscosity,
+        "reaction_forces": 4 * H * L * (alpha + beta),
+    }
+    whole = np.max(np.abs(theirs)) if function in ("jacobian", "rhs") else np.abs(theirs)
+    return np.maximum(whole, floors.get(function, 0.0))
+
+
 @pytest.mark.parametrize("name", NAMES)
-def test_agrees_with_lambdify_at_random_states(name, equations, rng):
-    module, witness = module_of(name), lambdified(equations(name))
+@pytest.mark.parametrize("seed", range(5))
+def test_agrees_with_lambdify_at_random_states(name, seed, equations):
+    module, witness, rng = module_of(name), lambdified(equations(name)), np.random.default_rng(seed)
     functions = (*FUNCTIONS, *(("reaction_forces",) if module.REACTIONS else ()))
     for _ in range(100):
         state, inputs = random_state(module, rng), random_inputs(rng)
@@ -60,12 +74,24 @@ def test_agrees_with_lambdify_at_random_states(name, equations, rng):
         for function in functions:
             ours = getattr(module, function)(state, inputs, parameters)
             theirs = np.asarray(getattr(witness, function)(state, inputs, parameters), dtype=float)
-            scale = np.max(np.abs(theirs)) if function in ("jacobian", "rhs") else np.abs(theirs)
-            assert np.all(np.abs(ours - theirs) <= 1e-12 * np.maximum(scale, np.abs(theirs)) + 1e-300), (
-                function,
-                ours,
-                theirs,
-            )
+            assert np.all(np.abs(ours - theirs) <= 1e-12 * _scale(function, theirs, parameters)), function
+
+
+@pytest.mark.parametrize("name", ["equal_biaxial", "uniaxial", "pure_shear_consistent_free"])
+def test_the_dissipated_power_is_never_negative_near_a_relaxed_dashpot(name, rng):
+    """Where the dashpots of both axes flow, it is computed as a sum of squares."""
+    module = module_of(name)
+    parameters, n = parameters_of(module, 1.3), module.COORDINATE_COUNT
+    for _ in range(200):
+        state = random_state(module, rng)
+        along = (*state[:n], 1.3)[: len(module.STATE) - 2 * n]
+        state[2 * n :] = np.array(along) * (1 + rng.choice([0.0, 1e-15, 1e-12, 1e-9]) * rng.standard_normal())
+        assert module.dashpot_power(state, (0.0, 0.0), parameters) >= 0
+
+
+def test_the_reference_state_is_of_floating_point():
+    for name in NAMES:
+        assert module_of(name).reference_state(parameters_of(module_of(name))).dtype == np.float64
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -103,13 +129,13 @@ def test_inputs_and_parameters_broadcast_against_the_state():
     assert module.rhs(state, (forces, 0.0), parameters).shape == (3, 5, 2)
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", [name for name in NAMES if name != "pure_shear_as_printed"])
 def test_the_reference_state_is_at_rest_without_load(name):
     module = module_of(name)
     held = 1.0  # any other held stretch loads the membrane
     parameters = parameters_of(module, held)
     state = module.reference_state(parameters)
-    assert np.max(np.abs(module.rhs(state, (0.0, 0.0), parameters))) < 1e-9 or name == "pure_shear_as_printed"
+    assert np.max(np.abs(module.rhs(state, (0.0, 0.0), parameters))) < 1e-9
 
 
 def test_the_printed_pure_shear_is_not_at_rest_even_unloaded():
@@ -208,24 +234,23 @@ def test_no_line_is_too_long_and_no_name_is_unused():
 
 
 def test_the_same_text_under_any_hash_seed():
-    """Derivation, common subexpressions and text of the largest model and of the one with a reaction."""
+    """All modules and the table of all verdicts, walked in full."""
     code = (
-        "import hashlib; from delagrange.derive import pipeline as p; from delagrange.derive.kernel import kernel;"
-        "from delagrange.derive.emit import emit; from delagrange.derive import load_cases as l;"
-        "m = p.paper_membrane(); cases = (l.UNIAXIAL, l.PURE_SHEAR_CONSISTENT);"
-        "print(*(hashlib.sha256(emit(kernel(p.derive(m, c), ())).encode()).hexdigest() for c in cases))"
+        "import sys; from delagrange.derive import pipeline; from delagrange.derive.report import as_text;"
+        "walked = pipeline.walk();"
+        "sys.stdout.write(''.join((*(text for _, text in walked.modules), as_text(walked.verdicts))))"
     )
-    runs = [
+    first, second = (
         subprocess.run(
             [sys.executable, "-c", code],
-            env={**os.environ, "PYTHONHASHSEED": seed},
+            env={**os.environ, "PYTHONHASHSEED": seed, "PYTHONIOENCODING": "utf-8"},
             capture_output=True,
-            text=True,
             check=True,
         ).stdout
-        for seed in ("0", "1", "4711")
-    ]
-    assert runs[0] == runs[1] == runs[2]
+        for seed in ("0", "4711")
+    )
+    assert all(f'"""{module_of(name).__doc__[:40]}'.encode() in first for name in NAMES)
+    assert first == second
 
 
 def test_the_template_and_its_view_must_fit(equations, monkeypatch):
@@ -242,8 +267,8 @@ def test_a_changed_equation_changes_the_digest(equations):
     assert kernel(eom, ()).digest != kernel(changed, ()).digest
 
 
-def test_checked_in_modules_are_what_the_derivation_emits(equations, tmp_path):
-    """The sum of all modules' bytes is that of a fresh emission; `make check-generated` names the stale one."""
+def test_a_checked_in_module_is_what_the_derivation_emits(equations, tmp_path):
+    """The module of the uniaxial membrane, byte for byte; `make check-generated` compares all of them."""
     from delagrange.derive import pipeline
     from delagrange.derive.published.sheng_2015 import SHENG_2015
     from delagrange.derive.verify import verify

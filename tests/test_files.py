@@ -13,7 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from delagrange.files import check_file, check_writable, prepare_folder, write_dataset
+from delagrange.files import check_file, check_folder, check_writable, prepare_folder, write_dataset
 
 
 def grid(values: np.ndarray) -> xr.Dataset:
@@ -113,3 +113,11 @@ def test_looking_leaves_nothing_behind(tmp_path):
     prepare_folder(tmp_path / "a" / "b")
     assert os.listdir(tmp_path) == ["a"]
     assert os.listdir(tmp_path / "a" / "b") == []
+
+
+def test_a_folder_to_read_from_must_be_there(tmp_path):
+    assert check_folder(tmp_path) == tmp_path
+    (tmp_path / "file").write_text("", encoding="utf-8")
+    for name, reason in (("none", "No such file or directory"), ("file", "Not a directory")):
+        with pytest.raises(ValueError, match=f"folder {tmp_path / name} cannot be read: {reason}"):
+            check_folder(tmp_path / name)

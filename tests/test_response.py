@@ -12,6 +12,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import delagrange as dl
+from delagrange import sweep as sweep_module
+from delagrange.ensemble import integrate_lanes
+from delagrange.lanes import Interrupted, empty_outcome
+from delagrange.loss import INTERRUPTED, STATUS
+from delagrange.problem import make_problem
 
 SHORT = {"duration": 0.01, "rtol": 1e-9, "atol": 1e-12}
 
@@ -79,18 +84,25 @@ def test_whatever_is_an_array_becomes_a_dimension():
         duration=2e-3,
     )
     assert dict(response["amplitude"].sizes) == {
-        "force": 2, "held_stretch": 3, "relaxation_time": 2, "shear_modulus_beta": 2, "frequency": 2,
+        "force": 2, "field_amplitude": 1, "held_stretch": 3, "relaxation_time": 2, "shear_modulus_beta": 2,
+        "frequency": 2,
     }  # fmt: skip
-    assert response["field_amplitude"].ndim == 0 and response["field_amplitude"].item() == 1e6
-    assert "viscosity" not in response.attrs and response.attrs["density"] == 1200.0
+    assert "viscosity" not in response.attrs
+    assert response.attrs["density"] == 1200.0 and response.attrs["density_units"] == "kg/m^3"
     one = dl.frequency_response(
         "pure_shear", frequency=310.0, force=0.2, field_amplitude=1e6, held_stretch=2.0, relaxation_time=1.0,
         shear_modulus_beta=3e4, duration=2e-3,
     )  # fmt: skip
     same = response.sel(
-        force=0.2, held_stretch=2.0, relaxation_time=1.0, shear_modulus_beta=3e4, frequency=310.0
+        force=0.2,
+        field_amplitude=1e6,
+        held_stretch=2.0,
+        relaxation_time=1.0,
+        shear_modulus_beta=3e4,
+        frequency=310.0,
     )
     assert one["amplitude"].dims == ("frequency",)
+    assert one["field_amplitude"].ndim == 0 and one["field_amplitude"].item() == 1e6
     assert same["amplitude"].item() == one["amplitude"].item()
 
 
@@ -216,3 +228,89 @@ def test_the_papers_own_numerics_give_its_printed_peaks(
     peak = dl.peaks(response.assign_coords(frequency=frequency))
     assert peak["resonance_frequency"].item() == printed_frequency
     assert peak["peak_amplitude"].item() == pytest.approx(printed_amplitude, rel=3e-3)
+
+
+def test_interrupted_between_chunks_the_default_engine_keeps_the_first(monkeypatch):
+    """An interruption while the second chunk runs leaves the first as if nothing had happened."""
+    whole = dl.frequency_response(
+        "equal_biaxial", frequency=[300.0, 310.0, 320.0, 330.0], field_amplitude=1e6, duration=2e-3
+    )
+    numpy_engine = sweep_module.ENGINES["numpy"]
+    calls = []
+
+    def interrupted_later(problem, state, settings, report):
+        calls.append(1)
+        if len(calls) == 2:
+            raise Interrupted(empty_outcome(state, 1, INTERRUPTED))
+        return numpy_engine.integrate(problem, state, settings, report)
+
+    engine = sweep_module.Engine(interrupted_later, 2)
+    monkeypatch.setattr(sweep_module, "ENGINES", {"numpy": engine})
+    with pytest.warns(UserWarning, match="interrupted: 2 of 4 runs not computed"):
+        part = dl.frequency_response(
+            "equal_biaxial", frequency=[300.0, 310.0, 320.0, 330.0], field_amplitude=1e6, duration=2e-3
+        )
+    assert list(part["status"].values) == ["completed"] * 2 + ["interrupted"] * 2
+    np.testing.assert_array_equal(part["amplitude"][:2], whole["amplitude"][:2])
+
+
+def test_an_interruption_inside_a_chunk_carries_the_lanes_that_had_ended(monkeypatch):
+    """Pulled-in lanes end early; what they found is not lost with the rest of their chunk."""
+    seen = []
+
+    def stop_late(done):
+        seen.append(done)
+        if done > 1.9:
+            raise KeyboardInterrupt
+
+    model = dl.load_model("equal_biaxial")
+    problem = make_problem(model, dl.SHENG_2015, {}, None, 0.0, dl.Constant(np.array([3e7, 1e6])))
+    state = np.repeat(model.reference_state(problem.parameters)[:, None], 2, axis=1)
+    settings = sweep_module.make_settings(
+        5e-3, None, 1e-8, 1e-11, "DOP853", "numpy", "scipy", "dense", dl.Limits()
+    )
+    with pytest.raises(Interrupted) as interruption:
+        integrate_lanes(problem, state, settings, stop_late)
+    status = [STATUS[code] for code in interruption.value.outcome.status]
+    assert status == ["collapsed", "interrupted"]
+    assert seen == sorted(seen) and 0 < seen[0] < seen[-1] <= 2
+
+
+def test_progress_moves_while_a_chunk_runs():
+    seen = []
+    model = dl.load_model("equal_biaxial")
+    problem = make_problem(model, dl.SHENG_2015, {}, None, 0.2, dl.Constant(np.array([1e6, 2e6])))
+    state = np.repeat(model.reference_state(problem.parameters)[:, None], 2, axis=1)
+    settings = sweep_module.make_settings(
+        2e-3, None, 1e-8, 1e-11, "DOP853", "numpy", "scipy", "dense", dl.Limits()
+    )
+    integrate_lanes(problem, state, settings, seen.append)
+    assert len(seen) > 5 and seen == sorted(seen) and seen[-1] == 2
+
+
+def test_a_force_drive_of_several_lanes_is_refused():
+    with pytest.raises(ValueError, match="is a drive with arrays"):
+        dl.frequency_response(
+            "equal_biaxial",
+            force=dl.Step(np.array([0.1, 0.2])),
+            frequency=[300.0, 301.0],
+            field_amplitude=1e6,
+            duration=1e-3,
+        )
+
+
+def test_a_grid_beyond_memory_is_refused():
+    with pytest.raises(ValueError, match="has 810000000000 runs; at most"):
+        dl.frequency_response(
+            "equal_biaxial",
+            frequency=np.arange(1.0, 900001.0),
+            force=np.arange(900000.0),
+            field_amplitude=1e6,
+            duration=1e-3,
+        )
+
+
+def test_peaks_of_something_else_are_refused():
+    run = dl.simulate("equal_biaxial", duration=1e-4, samples=3)
+    with pytest.raises(ValueError, match="peaks needs the Dataset of frequency_response"):
+        dl.peaks(run)

@@ -80,7 +80,32 @@ def test_phase_portrait():
     shown = dl.phase_portrait(lost)
     assert 0 < shown.sizes["time"] < lost.sizes["time"]
     assert bool(np.isfinite(shown["stretch_rate"]).all())
-    with pytest.raises(ValueError, match="coordinate"):
+    with pytest.raises(ValueError, match="coordinate must be one of stretch_1, stretch_2; got 'stretch_3'"):
         dl.phase_portrait(run, "stretch_3")
     with pytest.raises(ValueError, match="start = 1 s leaves nothing"):
         dl.phase_portrait(run, start=1.0)
+
+
+def test_phase_portrait_of_a_section():
+    section = dl.stroboscopic_section("equal_biaxial", force=0.5, field=FIELD, count=6)
+    portrait = dl.phase_portrait(section, start=2.5 / FIELD.frequency)
+    np.testing.assert_array_equal(portrait["stretch"], section["stretch"].values[3:])
+    np.testing.assert_array_equal(portrait["stretch_rate"], section["stretch_rate"].values[3:])
+
+
+def _response():
+    return dl.frequency_response("equal_biaxial", field_amplitude=1e6, frequency=[300.0], duration=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("make", "given"),
+    [
+        (lambda: None, "got None"),
+        (lambda: np.ones((3, 3)), "got .* of shape"),
+        (_response, "got a Dataset of amplitude, maximum, minimum"),
+        (lambda: dl.simulate("uniaxial", duration=1e-3).drop_vars("time"), "got a Dataset of stretch_1"),
+    ],
+)
+def test_what_is_no_run_has_no_phase_portrait(make, given):
+    with pytest.raises(ValueError, match=f"run must be a Dataset over time as simulate returns it.* {given}"):
+        dl.phase_portrait(make())

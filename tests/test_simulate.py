@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 import delagrange as dl
 from delagrange.problem import make_problem
+from delagrange.simulation import output_times
 from delagrange.trajectory import choose_method
 
 MODELS = {
@@ -247,6 +248,12 @@ def test_output_times_are_the_users():
     assert dl.simulate("equal_biaxial", duration=1e-3, samples=7).sizes["time"] == 7
     assert dl.simulate("equal_biaxial", duration=1e-3).sizes["time"] == 2001
     assert dl.simulate("equal_biaxial", duration=0.1).sizes["time"] == 4001
+
+
+def test_the_spacing_of_the_output_times_is_the_documented_one():
+    for duration in (1e-3, 0.1, 3.0, 25.0):
+        assert np.diff(output_times(None, None, duration)).max() <= 25e-6 * (1 + 1e-9)
+    assert len(output_times(None, None, 25.0)) == len(output_times(None, None, 100.0)) == 1_000_001
 
 
 def test_progress_goes_to_standard_error(capsys):

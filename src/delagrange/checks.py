@@ -7,7 +7,11 @@ from difflib import get_close_matches
 
 import numpy as np
 
-from delagrange.units import with_unit
+from delagrange.units import in_words, shown, unit_name, with_unit
+
+_REAL_KINDS = (
+    "iufO"  # integers, floats, and what Python numbers too large for them make: not bool, complex, text
+)
 
 
 def finite(name: str, value: object, unit: str) -> float | np.ndarray:
@@ -37,16 +41,26 @@ def within(name: str, value: object, unit: str, low: float, high: float) -> floa
     """`value` as one float in the closed interval from `low` to `high`."""
     number = scalar(name, _scalar_or_array(_as_float(name, value, unit)), unit)
     if not low <= number <= high:
-        allowed = f"from {with_unit(low, unit)} to {with_unit(high, unit)}"
-        raise ValueError(f"{name} must lie {allowed}, got {with_unit(value, unit)}")
+        symbol, words = ("1", f" in {unit}") if in_words(unit) else (unit, "")
+        allowed = f"from {with_unit(low, symbol)} to {with_unit(high, symbol)}{words}"
+        raise ValueError(f"{name} must lie {allowed}, got {with_unit(value, symbol)}")
     return number
 
 
-def count(name: str, value: object, low: int) -> int:
-    """`value` as an integer of at least `low`."""
-    if isinstance(value, bool) or not isinstance(value, int | np.integer) or value < low:
-        raise ValueError(f"{name} must be an integer of at least {low}, got {value!r}")
+def count(name: str, value: object, low: int, high: int | None = None) -> int:
+    """`value` as an integer of at least `low` and, where given, at most `high`."""
+    whole = isinstance(value, int | np.integer) and not isinstance(value, bool)
+    if not whole or value < low or (high is not None and value > high):
+        allowed = f"of at least {low}" if high is None else f"from {low} to {high}"
+        raise ValueError(f"{name} must be an integer {allowed}, got {shown(value)}")
     return int(value)
+
+
+def instance(name: str, value: object, kind: type) -> object:
+    """`value` if it is a `kind` of this package."""
+    if not isinstance(value, kind):
+        raise ValueError(f"{name} must be a delagrange.{kind.__name__}, got {shown(value)}")
+    return value
 
 
 def increasing(name: str, values: object, unit: str) -> np.ndarray:
@@ -54,7 +68,7 @@ def increasing(name: str, values: object, unit: str) -> np.ndarray:
     array = np.atleast_1d(finite(name, values, unit))
     if array.ndim != 1 or array.size == 0:
         raise ValueError(
-            f"{name} must be a one-dimensional grid of at least one value in {unit}, got {values!r}"
+            f"{name} must be a one-dimensional grid of at least one value in {unit}, got {shown(values)}"
         )
     if np.any(np.diff(array) <= 0):
         raise ValueError(f"{name} must be strictly increasing, got {with_unit(values, unit)}")
@@ -66,7 +80,7 @@ def distinct(name: str, values: object, unit: str) -> np.ndarray:
     array = np.atleast_1d(finite(name, values, unit))
     if array.ndim != 1 or array.size == 0:
         raise ValueError(
-            f"{name} must be one value or a one-dimensional grid of them in {unit}, got {values!r}"
+            f"{name} must be one value or a one-dimensional grid of them in {unit}, got {shown(values)}"
         )
     if len(np.unique(array)) != len(array):
         raise ValueError(f"{name} must not hold a value twice, got {with_unit(values, unit)}")
@@ -76,11 +90,11 @@ def distinct(name: str, values: object, unit: str) -> np.ndarray:
 def choice(name: str, value: object, allowed: Iterable[str]) -> str:
     """`value` if it is one of `allowed`."""
     allowed = tuple(allowed)
-    if value not in allowed:
+    if not isinstance(value, str) or value not in allowed:
         raise ValueError(
-            f"{name} must be one of {', '.join(allowed)}; got {value!r}{did_you_mean(value, allowed)}"
+            f"{name} must be one of {', '.join(allowed)}; got {shown(value)}{did_you_mean(value, allowed)}"
         )
-    return str(value)
+    return value
 
 
 def did_you_mean(value: object, candidates: Iterable[str]) -> str:
@@ -90,16 +104,14 @@ def did_you_mean(value: object, candidates: Iterable[str]) -> str:
 
 
 def _as_float(name: str, value: object, unit: str) -> np.ndarray:
-    if isinstance(value, bool | np.bool_ | str) or value is None:
-        raise ValueError(f"{name} must be a number in {_unit_name(unit)}, got {value!r}")
     try:
-        return np.asarray(value, dtype=float)
+        if value is not None and np.asarray(value).dtype.kind in _REAL_KINDS:
+            return np.asarray(value, dtype=float)
+    except OverflowError:
+        raise ValueError(f"{name} must be finite, got {with_unit(value, unit)}") from None
     except (TypeError, ValueError):
-        raise ValueError(f"{name} must be a number in {_unit_name(unit)}, got {value!r}") from None
-
-
-def _unit_name(unit: str) -> str:
-    return "unit 1" if unit == "1" else unit
+        pass
+    raise ValueError(f"{name} must be a number in {unit_name(unit)}, got {shown(value)}")
 
 
 def _scalar_or_array(array: np.ndarray) -> float | np.ndarray:

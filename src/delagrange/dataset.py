@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from importlib.metadata import version
+from types import ModuleType
 
 import numpy as np
 
-from delagrange.loss import STATUS, STATUS_MEANING, Limits
+from delagrange.lanes import Outcome
+from delagrange.loss import COMPLETED, STATUS, STATUS_MEANING, Limits
 from delagrange.parameters import Parameters
 from delagrange.problem import Problem
 
+AMPLITUDE_DEFINITION = "half of peak to peak over the window, transient included"
 PAPER = "Sheng et al. (2015), J. Appl. Phys., doi:10.1063/1.4913384"
 
 
@@ -37,14 +40,39 @@ def status_time_variable(dimensions: str | tuple[str, ...], times: object) -> tu
     return variable(dimensions, times, "s", "time at which the run ended")
 
 
+def extrema_variables(
+    model: ModuleType,
+    outcome: Outcome,
+    dimensions: tuple[str, ...],
+    shape: tuple[int, ...],
+    measure: dict[str, object],
+) -> dict[str, tuple]:
+    """Amplitude, maximum and minimum of every coordinate over a grid; those of the first go without its name.
+
+    The amplitude is NaN where the run was lost, an extremum where the run did not reach the window.
+    """
+    completed = outcome.status.reshape(shape) == COMPLETED
+    data = {}
+    for place, entry in enumerate(model.STATE[: model.COORDINATE_COUNT]):
+        maximum, minimum = (
+            np.where(np.isfinite(values[place]), values[place], np.nan).reshape(shape)
+            for values in (outcome.maximum, outcome.minimum)
+        )
+        amplitude = np.where(completed, (maximum - minimum) / 2, np.nan)
+        prefix = f"{entry.name}_" if place else ""
+        for what, values in (("amplitude", amplitude), ("maximum", maximum), ("minimum", minimum)):
+            long_name = f"{what} of the {entry.meaning}"
+            data[prefix + what] = variable(dimensions, values, entry.unit, long_name, entry.symbol, **measure)
+    return data
+
+
 def run_attributes(problem: Problem, parameters: Parameters, limits: Limits) -> dict[str, object]:
-    """What a run was made of: model, single-valued parameters, drives, limits, version and source."""
+    """What a run was made of: model, single-valued parameters with units, drives, limits, version and source."""
     model = problem.model
-    single = {
-        entry.name: float(value)
-        for entry, value in zip(model.PARAMETERS, problem.parameters)
-        if np.ndim(value) == 0
-    }
+    single: dict[str, object] = {}
+    for entry, value in zip(model.PARAMETERS, problem.parameters):
+        if np.ndim(value) == 0:
+            single |= {entry.name: float(value), f"{entry.name}_units": entry.unit}
     drives = {f"{entry.name}_drive": str(drive) for entry, drive in zip(model.INPUTS, problem.drives)}
     return {
         "model": model.MODEL,

@@ -179,7 +179,7 @@ class Tabulated(Drive):
         first, last = self.times[0], self.times[-1]
         if first > start or last < stop:
             raise ValueError(
-                f"{name}: the table covers {first:g} s to {last:g} s and does not cover the run, "
+                f"{name} table covers {first:g} s to {last:g} s and does not cover the run, "
                 f"{start:g} s to {stop:g} s"
             )
 

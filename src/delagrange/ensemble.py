@@ -7,7 +7,7 @@ integrated beside it.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from itertools import pairwise
 
@@ -16,24 +16,48 @@ import numpy as np
 from delagrange import loss
 from delagrange.extrema import widen
 from delagrange.interpolation import evaluate, first_crossing, step_polynomial
-from delagrange.lanes import Lanes, Outcome, Settings, Trial, empty_outcome, first_lanes, joined
+from delagrange.lanes import (
+    Interrupted,
+    Lanes,
+    Outcome,
+    Settings,
+    Trial,
+    empty_outcome,
+    first_lanes,
+    joined,
+)
 from delagrange.problem import Problem
 from delagrange.step_control import combine
 
+Report = Callable[[float], None]  # told how many runs' worth of time has been integrated
 
-def integrate_lanes(problem: Problem, initial_state: np.ndarray, settings: Settings) -> Outcome:
-    """Integrate every lane from `initial_state`, (n_state, n_lanes), at t = 0 over the duration."""
-    coordinates = problem.model.COORDINATE_COUNT
-    outcome = empty_outcome(initial_state, coordinates, loss.INTERRUPTED)
-    lanes = first_lanes(initial_state, coordinates)
-    with np.errstate(all="ignore"):
-        lanes = _without_lost_at_start(problem, lanes, settings, outcome)
-        for span in segments(problem, settings):
-            inside = settings.window[0] <= span[0] and span[1] <= settings.window[1]
-            measured = settings if inside else replace(settings, extrema="none")
-            lanes = _run_segment(problem, lanes, measured, span, outcome)
-    outcome.record_into(lanes, loss.COMPLETED)
+
+def integrate_lanes(
+    problem: Problem, initial_state: np.ndarray, settings: Settings, report: Report | None = None
+) -> Outcome:
+    """Integrate every lane from `initial_state`, (n_state, n_lanes), at t = 0 over the duration.
+
+    Raises:
+        Interrupted: from the keyboard; it carries the outcome of the lanes that had ended.
+    """
+    outcome = empty_outcome(initial_state, problem.model.COORDINATE_COUNT, loss.INTERRUPTED)
+    try:
+        with np.errstate(all="ignore"):
+            _integrate_into(outcome, problem, initial_state, settings, report)
+    except KeyboardInterrupt as interruption:
+        raise Interrupted(outcome) from interruption
     return outcome
+
+
+def _integrate_into(
+    outcome: Outcome, problem: Problem, initial_state: np.ndarray, settings: Settings, report: Report | None
+) -> None:
+    lanes = first_lanes(initial_state, problem.model.COORDINATE_COUNT)
+    lanes = _without_lost_at_start(problem, lanes, settings, outcome)
+    for span in segments(problem, settings):
+        inside = settings.window[0] <= span[0] and span[1] <= settings.window[1]
+        measured = settings if inside else replace(settings, extrema="none")
+        lanes = _run_segment(problem, lanes, measured, span, outcome, report)
 
 
 def _without_lost_at_start(problem: Problem, lanes: Lanes, settings: Settings, outcome: Outcome) -> Lanes:
@@ -53,23 +77,40 @@ def segments(problem: Problem, settings: Settings) -> Iterator[tuple[float, floa
 
 
 def _run_segment(
-    problem: Problem, lanes: Lanes, settings: Settings, span: tuple[float, float], outcome: Outcome
+    problem: Problem,
+    lanes: Lanes,
+    settings: Settings,
+    span: tuple[float, float],
+    outcome: Outcome,
+    report: Report | None,
 ) -> Lanes:
-    """Take the lanes to the end of the span; those that are lost on the way go to `outcome`."""
+    """Take the lanes to the end of the span; those that are lost on the way or done go to `outcome`."""
     every_lane = problem.piece(*span)
     running = every_lane.take(lanes.index)
     lanes = _at_start(running, lanes, settings, span[1])
     buffer = np.empty((settings.tableau.stage_count + 1) * lanes.state.size)
-    arrived = []
+    arrived = [lanes.take(np.arange(0))]
     while len(lanes.index):
         trial = _try_step(running, lanes, settings, span[1], buffer)
         lanes, lost = _judge(running, trial, settings, outcome)
         leaving = lost | (lanes.time >= span[1])
         if np.any(leaving):
-            arrived.append(lanes.take(np.flatnonzero(leaving & ~lost)))
+            there = lanes.take(np.flatnonzero(leaving & ~lost))
+            arrived.append(there)
+            if span[1] >= settings.duration:
+                outcome.record_into(there, loss.COMPLETED)
             lanes = lanes.take(np.flatnonzero(~leaving))
             running = every_lane.take(lanes.index)
-    return joined(arrived) if arrived else lanes
+        if report is not None:
+            report(_runs_done(outcome, (lanes, *arrived), settings.duration))
+    return joined(arrived)
+
+
+def _runs_done(outcome: Outcome, groups: tuple[Lanes, ...], duration: float) -> float:
+    """Lanes that have ended, and the share of the duration behind those that have not."""
+    ended = np.count_nonzero(outcome.status != loss.INTERRUPTED)
+    going = [group.time for group in groups if not np.any(outcome.status[group.index] != loss.INTERRUPTED)]
+    return ended + sum(float(np.sum(time)) for time in going) / duration
 
 
 def _at_start(problem: Problem, lanes: Lanes, settings: Settings, stop: float) -> Lanes:

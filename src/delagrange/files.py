@@ -54,6 +54,19 @@ def prepare_folder(path: Path) -> Path:
     return path
 
 
+def check_folder(path: Path) -> Path:
+    """The path, if it is a folder that can be read.
+
+    Raises:
+        ValueError: there is none, it is a file, or it may not be read.
+    """
+    try:
+        next(path.iterdir(), None)
+    except OSError as error:
+        raise ValueError(f"folder {path} cannot be read: {error.strerror}") from error
+    return path
+
+
 def _check_takes_files(folder: Path, what: str) -> None:
     """Ask the file system by making a file: permissions alone do not know of read-only mounts."""
     try:

@@ -9,12 +9,14 @@ import numpy as np
 
 from delagrange import checks
 
+MOST_RUNS = 50_000_000  # the outcome of each takes some hundred bytes
+
 
 @dataclass(frozen=True)
 class Grid:
     """Named axes in order; the last varies fastest over the lanes. Values of one number make no axis."""
 
-    axes: Mapping[str, np.ndarray]  # name -> (n_values,), more than one value each (frequency: at least one)
+    axes: Mapping[str, np.ndarray]  # name -> (n_values,)
     single: Mapping[str, float]  # name -> the one value
     units: Mapping[str, str]
 
@@ -30,7 +32,7 @@ class Grid:
 
     def lane_values(self, lanes: slice) -> dict[str, float | np.ndarray]:
         """Value of every name in the lanes: (n_lanes,) along an axis, a number where there is but one."""
-        places = np.unravel_index(np.arange(self.size)[lanes], self.shape)
+        places = np.unravel_index(np.arange(lanes.start, lanes.stop), self.shape)
         return dict(self.single) | {name: self.axes[name][place] for name, place in zip(self.axes, places)}
 
 
@@ -43,8 +45,12 @@ def make_grid(values: Mapping[str, float | np.ndarray], units: Mapping[str, str]
     axes, single = {}, {}
     for name, given in values.items():
         array = np.asarray(given)
-        if array.size == 1 and array.ndim <= 1 and name != always:
-            single[name] = float(array.reshape(()))
+        if array.ndim == 0 and name != always:
+            single[name] = float(array)
         else:
-            axes[name] = checks.distinct(name, array, units[name])
-    return Grid(axes, single, dict(units))
+            axes[name] = checks.distinct(name, np.atleast_1d(array), units[name])
+    grid = Grid(axes, single, dict(units))
+    if grid.size > MOST_RUNS:
+        lengths = " x ".join(f"{len(along)} {name}" for name, along in axes.items())
+        raise ValueError(f"grid of {lengths} has {grid.size} runs; at most {MOST_RUNS} are allowed")
+    return grid

@@ -115,6 +115,14 @@ class Outcome:
             getattr(self, entry.name)[..., places] = getattr(part, entry.name)
 
 
+class Interrupted(KeyboardInterrupt):
+    """An interruption from the keyboard, with what was finished before it."""
+
+    def __init__(self, outcome: Outcome) -> None:
+        super().__init__()
+        self.outcome = outcome
+
+
 def empty_outcome(state: np.ndarray, coordinates: int, status: int) -> Outcome:
     """An outcome of lanes that have not run, all with `status`."""
     lanes = state.shape[-1]

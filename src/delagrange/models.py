@@ -2,15 +2,18 @@
 
 A model is the generated module itself: data (`STATE`, `INPUTS`, `PARAMETERS`, ...) and functions
 (`rhs`, `jacobian`, energies, ...) of state, inputs and parameters. Nothing wraps it, so a module
-that someone copied or wrote by hand runs just as well.
+that someone copied or wrote by hand runs just as well, as far as it offers what a run asks of it:
+`jacobian` for an implicit method, `kinetic_energy` and the like for energies.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from importlib import import_module
 from types import ModuleType
 
 from delagrange import checks
+from delagrange.units import shown
 
 _MODULES = {
     ("equal_biaxial", None, None): "equal_biaxial",
@@ -37,50 +40,58 @@ def load_model(
     """The module of a model, by its load case or its full name; hyphens count as underscores.
 
     `formulation` ("consistent", the default, or "as_printed") and `lateral_dashpot` ("held", the default,
-    or "free") choose among the models of pure shear. A module with the interface is returned as it is.
+    or "free") choose among the models of pure shear. With a full name they may be left out or say what that
+    model is. A module with the interface is returned as it is.
 
     Raises:
-        ValueError: no such model, formulation or choice of lateral dashpot; the message lists what there is.
+        ValueError: no such model, formulation or choice of lateral dashpot, or one that the named model is
+            not; the message lists what there is.
     """
+    formulation = formulation if formulation is None else str(formulation).replace("-", "_")
     if isinstance(model, ModuleType):
-        _refuse_choice(model.__name__, formulation, lateral_dashpot)
-        return _checked(model)
+        return _confirmed(_checked(model), formulation, lateral_dashpot)
     name = str(model).replace("-", "_")
+    if name in _MODULES.values():
+        return _confirmed(_import(name), formulation, lateral_dashpot)
     choices = [key for key in _MODULES if key[0] == name]
     if choices:
         return _import(_pick(name, choices, formulation, lateral_dashpot))
-    if name in _MODULES.values():
-        _refuse_choice(name, formulation, lateral_dashpot)
-        return _import(name)
     known = tuple(dict.fromkeys([*(key[0] for key in _MODULES), *model_names()]))
     near = checks.did_you_mean(name, known)
-    raise ValueError(f"unknown model {model!r}{near}; known are {', '.join(known)}")
+    raise ValueError(f"unknown model {shown(model)}{near}; known are {', '.join(known)}")
 
 
 def _pick(name: str, choices: list[tuple], formulation: str | None, lateral_dashpot: str | None) -> str:
-    if choices == [(name, None, None)]:
-        _refuse_choice(name, formulation, lateral_dashpot)
-        return _MODULES[choices[0]]
-    formulation = _normalised(formulation) or _DEFAULTS["formulation"]
-    lateral_dashpot = lateral_dashpot or _DEFAULTS["lateral_dashpot"]
+    formulation = _DEFAULTS["formulation"] if formulation is None else formulation
+    lateral_dashpot = _DEFAULTS["lateral_dashpot"] if lateral_dashpot is None else lateral_dashpot
     checks.choice(f"formulation of {name}", formulation, dict.fromkeys(key[1] for key in choices))
     dashpots = dict.fromkeys(key[2] for key in choices if key[1] == formulation)
     checks.choice(f"lateral_dashpot of {name} {formulation}", lateral_dashpot, dashpots)
     return _MODULES[name, formulation, lateral_dashpot]
 
 
-def _normalised(formulation: str | None) -> str | None:
-    return formulation if formulation is None else str(formulation).replace("-", "_")
+def _confirmed(module: ModuleType, formulation: str | None, lateral_dashpot: str | None) -> ModuleType:
+    """The module, if it is what was asked for: its name leaves nothing to choose."""
+    dashpot = next((key[2] for key, name in _MODULES.items() if name == module.MODEL), None)
+    given = {"formulation": (formulation, module.FORMULATION), "lateral_dashpot": (lateral_dashpot, dashpot)}
+    for what, (wanted, has) in given.items():
+        if wanted is not None and (has is None or wanted != has):
+            allowed = "leave it out" if has is None else f"leave it out or give {has!r}, which it is"
+            raise ValueError(f"{what} {shown(wanted)}: the model {module.MODEL} leaves no choice; {allowed}")
+    return module
 
 
-def _refuse_choice(name: str, formulation: str | None, lateral_dashpot: str | None) -> None:
-    """A model without alternatives accepts `formulation="consistent"`, which it is, and nothing else."""
-    if _normalised(formulation) not in (None, "consistent"):
+def check_offers(module: ModuleType, names: Iterable[str], purpose: str) -> None:
+    """Refuse a module that lacks a function which the `purpose` of a run needs.
+
+    Raises:
+        ValueError: naming what is missing.
+    """
+    missing = [name for name in names if not hasattr(module, name)]
+    if missing:
         raise ValueError(
-            f"formulation {formulation!r}: {name} comes in one formulation only; leave formulation out"
+            f"{purpose} needs {', '.join(missing)}, which the model {module.MODEL} does not offer"
         )
-    if lateral_dashpot is not None:
-        raise ValueError(f"lateral_dashpot {lateral_dashpot!r}: {name} leaves no choice; leave it out")
 
 
 def _import(name: str) -> ModuleType:

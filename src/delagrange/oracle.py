@@ -10,17 +10,24 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from delagrange import loss
-from delagrange.ensemble import segments
-from delagrange.lanes import Outcome, Settings, empty_outcome
+from delagrange.ensemble import Report, segments
+from delagrange.lanes import Interrupted, Outcome, Settings, empty_outcome
 from delagrange.problem import Problem
 
 
-def integrate_one_by_one(problem: Problem, initial_state: np.ndarray, settings: Settings) -> Outcome:
+def integrate_one_by_one(
+    problem: Problem, initial_state: np.ndarray, settings: Settings, report: Report | None = None
+) -> Outcome:
     """As `delagrange.ensemble.integrate_lanes`; steps and rejections are not counted."""
     outcome = empty_outcome(initial_state, problem.model.COORDINATE_COUNT, loss.INTERRUPTED)
-    for lane in range(initial_state.shape[1]):
-        with np.errstate(all="ignore"):
-            _run_lane(problem.take(lane), initial_state[:, lane], settings, outcome, lane)
+    try:
+        for lane in range(initial_state.shape[1]):
+            with np.errstate(all="ignore"):
+                _run_lane(problem.take(lane), initial_state[:, lane], settings, outcome, lane)
+            if report is not None:
+                report(lane + 1)
+    except KeyboardInterrupt as interruption:
+        raise Interrupted(outcome) from interruption
     return outcome
 
 

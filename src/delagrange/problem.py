@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from math import log10
 from types import ModuleType
 
 import numpy as np
@@ -11,6 +12,9 @@ import numpy as np
 from delagrange import checks
 from delagrange.drive import Constant, Drive, Values, as_drive
 from delagrange.parameters import MATERIAL_UNITS, Parameters, material_values
+from delagrange.units import shown, with_unit
+
+_ARGUMENTS = {"force": "force", "nominal_electric_field": "field"}  # input of a model -> what a user calls it
 
 
 @dataclass(frozen=True)
@@ -22,8 +26,11 @@ class Problem:
     parameters: tuple[Values, ...]  # one for each of model.PARAMETERS
 
     def inputs(self, time: Values) -> tuple[Values, ...]:
-        """Values of the model's inputs at `time` [s]."""
-        return tuple(drive.at(time) for drive in self.drives)
+        """Values of the model's inputs at `time` [s].
+
+        In NumPy's floats: a power of one that is too large is infinite, where Python's would raise.
+        """
+        return tuple(np.asarray(drive.at(time), dtype=float)[()] for drive in self.drives)
 
     def rhs(self, time: Values, state: np.ndarray) -> np.ndarray:
         """Rate of change of the state, (n_state, ...) [unit of the state / s]."""
@@ -63,20 +70,65 @@ def make_problem(
 
     Raises:
         ValueError: a bad value, an unknown parameter, a force, field or held stretch that the model
-            has no place for, or a held stretch missing.
+            has no place for, a held stretch missing, or values with which double precision cannot
+            compute the equations.
     """
-    if not isinstance(parameters, Parameters):
-        raise ValueError(f"parameters must be a delagrange.Parameters, got {parameters!r}")
+    checks.instance("parameters", parameters, Parameters)
     values = material_values(parameters, changes) | _held(model, held_stretch)
     drives = {
         "force": as_drive("force", force, "N"),
         "nominal_electric_field": as_drive("field", field, "V/m"),
     }
-    return Problem(
+    problem = Problem(
         model,
         tuple(_drive_of(model, variable.name, drives) for variable in _all_used(model, drives)),
         tuple(_parameter_of(model, variable.name, values) for variable in model.PARAMETERS),
     )
+    _check_computable(problem)
+    return problem
+
+
+def input_name(name: str) -> str:
+    """What a user calls the model's input `name`: `nominal_electric_field` is given as `field`."""
+    return _ARGUMENTS.get(name, name)
+
+
+def _check_computable(problem: Problem) -> None:
+    """Refuse numbers of which the equations at rest overflow.
+
+    Lanes that vary may do so: each is lost on its own, and its status says so.
+    """
+    lanes = any(map(np.ndim, (*problem.parameters, *problem.inputs(0.0))))
+    try:
+        computable = bool(np.all(np.isfinite(_at_rest(problem.take(slice(0, 1)))))) or lanes
+    except (OverflowError, ZeroDivisionError):  # of Python's floats, which all lanes have in common
+        computable = False
+    if not computable:
+        raise ValueError(
+            f"the equations of {problem.model.MODEL} are beyond double precision with {_most_extreme(problem)}; "
+            "allowed are values of which no product or power in them overflows"
+        )
+
+
+def _at_rest(problem: Problem) -> np.ndarray:
+    """Rates and reactions in the reference state at t = 0, one after the other."""
+    model = problem.model
+    state = np.asarray(model.reference_state(problem.parameters), dtype=float)
+    arguments = state, problem.inputs(0.0), problem.parameters
+    with np.errstate(all="ignore"):
+        reactions = model.reaction_forces(*arguments) if hasattr(model, "reaction_forces") else ()
+        return np.concatenate([np.ravel(values) for values in (model.rhs(*arguments), reactions)])
+
+
+def _most_extreme(problem: Problem) -> str:
+    """The single number that is farthest from 1 in its SI unit, with its name."""
+    entries = [
+        *zip(problem.model.PARAMETERS, problem.parameters),
+        *zip(problem.model.INPUTS, problem.inputs(0.0)),
+    ]
+    single = [(entry, float(value)) for entry, value in entries if np.ndim(value) == 0 and value != 0]
+    entry, value = max(single, key=lambda pair: abs(log10(abs(pair[1]))))
+    return f"{input_name(entry.name)} = {with_unit(value, entry.unit)}"
 
 
 def _held(model: ModuleType, held_stretch: Values | None) -> dict[str, Values]:
@@ -85,7 +137,7 @@ def _held(model: ModuleType, held_stretch: Values | None) -> dict[str, Values]:
         raise ValueError(f"held_stretch [1] is missing: {model.MODEL} needs it, positive and finite")
     if not needed and held_stretch is not None:
         raise ValueError(
-            f"held_stretch {held_stretch!r} [1] given, but {model.MODEL} holds no stretch; leave it out"
+            f"held_stretch {shown(held_stretch)} [1] given, but {model.MODEL} holds no stretch; leave it out"
         )
     return {"held_stretch": checks.positive("held_stretch", held_stretch, "1")} if needed else {}
 
@@ -96,7 +148,8 @@ def _all_used(model: ModuleType, drives: Mapping[str, Drive]) -> tuple:
     for name, drive in drives.items():
         if name not in known and not (isinstance(drive, Constant) and np.all(drive.value == 0)):
             raise ValueError(
-                f"{name} given as {drive}, but {model.MODEL} has no such input; it has {', '.join(known)}"
+                f"{input_name(name)} given as {drive}, but {model.MODEL} has no such input; "
+                f"it has {', '.join(map(input_name, known))}"
             )
     return tuple(model.INPUTS)
 

@@ -7,17 +7,21 @@ from types import ModuleType
 import numpy as np
 import xarray as xr
 
-from delagrange import loss
-from delagrange.dataset import run_attributes, status_time_variable, status_variable, variable
+from delagrange.dataset import (
+    AMPLITUDE_DEFINITION,
+    extrema_variables,
+    run_attributes,
+    status_time_variable,
+    status_variable,
+    variable,
+)
 from delagrange.drive import Drive
 from delagrange.grid import Grid
 from delagrange.lanes import Outcome
 from delagrange.loss import Limits
-from delagrange.models import coordinate_names, load_model
+from delagrange.models import load_model
 from delagrange.parameters import CHANGEABLE_UNITS, SHENG_2015, Parameters
 from delagrange.sweep import SWEEP_UNITS, Sweep, make_settings, make_sweep, run_sweep
-
-AMPLITUDE_DEFINITION = "half of peak to peak over the window, transient included"
 
 
 def frequency_response(
@@ -56,6 +60,8 @@ def frequency_response(
         method: "DOP853" or "RK45".
         engine: "numpy" runs all points side by side; "scipy" one by one through `solve_ivp`, slowly, as a
             witness.
+            Sweeps are explicit: for relaxation times far below a period of vibration use `simulate` with
+            method "auto".
         step_control: "scipy", or "ode45" for the controller of MATLAB's `ode45` (with method "RK45").
         extrema: "dense" between steps, to the tolerance; "samples" at the quarters of each step, as
             `ode45` plots them; "steps" at the ends of steps.
@@ -92,33 +98,12 @@ def _dataset(sweep: Sweep, outcome: Outcome, numerics: dict[str, object]) -> xr.
     dimensions = tuple(grid.axes)
     start, stop = settings.window
     measure = {"definition": AMPLITUDE_DEFINITION, "window_start": start, "window_stop": stop}
-    data = {}
-    for place, name in enumerate(coordinate_names(sweep.model)):
-        data |= _coordinate_variables(sweep, outcome, place, name, measure)
+    data = extrema_variables(sweep.model, outcome, dimensions, grid.shape, measure)
     data["status"] = status_variable(dimensions, outcome.status.reshape(grid.shape))
     data["status_time"] = status_time_variable(dimensions, outcome.status_time.reshape(grid.shape))
-    attributes = _attributes(sweep) | {"duration": settings.duration} | measure | numerics
+    lengths = {"duration": settings.duration, "duration_units": "s"}
+    attributes = _attributes(sweep) | lengths | measure | {"window_units": "s"} | numerics
     return xr.Dataset(data, coords=_coordinates(grid), attrs=attributes)
-
-
-def _coordinate_variables(
-    sweep: Sweep, outcome: Outcome, place: int, name: str, measure: dict[str, object]
-) -> dict[str, tuple]:
-    """Amplitude, maximum and minimum of one coordinate; those of the first go without its name."""
-    grid, entry = sweep.grid, sweep.model.STATE[place]
-    maximum, minimum = (
-        np.where(np.isfinite(values[place]), values[place], np.nan).reshape(grid.shape)
-        for values in (outcome.maximum, outcome.minimum)
-    )
-    completed = outcome.status.reshape(grid.shape) == loss.COMPLETED
-    amplitude = np.where(completed, (maximum - minimum) / 2, np.nan)
-    prefix = "" if place == 0 else f"{name}_"
-    return {
-        f"{prefix}{what}": variable(
-            tuple(grid.axes), values, entry.unit, f"{what} of the {entry.meaning}", entry.symbol, **measure
-        )
-        for what, values in (("amplitude", amplitude), ("maximum", maximum), ("minimum", minimum))
-    }
 
 
 _LONG_NAMES = {
@@ -141,13 +126,12 @@ def _coordinates(grid: Grid) -> dict[str, tuple]:
 
 def _attributes(sweep: Sweep) -> dict[str, object]:
     """What all runs have in common; what varies over the grid is said by its coordinates."""
-    axes = set(sweep.grid.axes)
-    if axes & {"relaxation_time", "shear_modulus_beta"}:
-        axes.add("viscosity")
     single = {name: value for name, value in sweep.grid.single.items() if name in CHANGEABLE_UNITS}
     parameters = sweep.parameters.replace(**single)
-    attributes = run_attributes(sweep.problem(slice(0, 1)), parameters, sweep.settings.limits)
-    common = {name: value for name, value in attributes.items() if name not in axes}
+    common = run_attributes(sweep.problem(slice(0, 1)), parameters, sweep.settings.limits)
+    for name in sweep.grid.axes:
+        common.pop(name, None)
+        common.pop(f"{name}_units", None)
     common["nominal_electric_field_drive"] = "field_bias + field_amplitude * sin(2 pi frequency t)"
     if sweep.force_drive is None:
         common["force_drive"] = "Constant(force)"
@@ -160,7 +144,12 @@ def peaks(response: xr.Dataset) -> xr.Dataset:
     Returns:
         Dataset with `resonance_frequency` [Hz] and `peak_amplitude` [1] over the other dimensions; NaN for
         a curve of which no point was completed.
+
+    Raises:
+        ValueError: the Dataset is not one of `frequency_response`.
     """
+    if "amplitude" not in response or "frequency" not in response.dims:
+        raise ValueError("peaks needs the Dataset of frequency_response, with `amplitude` over `frequency`")
     amplitude = response["amplitude"]
     known = amplitude.notnull().any("frequency")
     place = amplitude.fillna(-np.inf).argmax("frequency")

@@ -11,14 +11,17 @@ from delagrange import checks, loss
 from delagrange.dataset import run_attributes, status_time_variable, status_variable, variable
 from delagrange.drive import Drive
 from delagrange.loss import Limits
-from delagrange.models import load_model
+from delagrange.models import check_offers, load_model
 from delagrange.parameters import SHENG_2015, Parameters
-from delagrange.problem import Problem, make_problem
+from delagrange.problem import Problem, input_name, make_problem
 from delagrange.tolerances import check_duration, check_tolerances
 from delagrange.trajectory import METHODS, Trajectory, integrate
+from delagrange.units import shown
 
 _SPACING = 25e-6  # [s], some 40 samples in a period of the paper's membrane
 _FEWEST_SAMPLES, _MOST_SAMPLES = 2001, 1_000_001
+_SAMPLES_RANGE = (2, 10_000_000)
+_EXPLICIT = ("DOP853", "RK45")  # the methods that ask for no Jacobian
 
 
 def simulate(
@@ -42,7 +45,7 @@ def simulate(
     progress: bool = False,
     **material: float,
 ) -> xr.Dataset:
-    """Integrate one run from t = 0 over `duration` [s].
+    """Integrate one run from t = 0 over `duration` [s], 1e-9 s to 1e6 s.
 
     Args:
         model: name of a load case or of a generated module, or such a module itself.
@@ -52,8 +55,8 @@ def simulate(
         formulation, lateral_dashpot: choice among the models of pure shear, see `load_model`.
         parameters: the membrane; `**material` replaces single values of it, `relaxation_time` [s] included.
         time: times [s] of the output, increasing, from 0 to `duration`; or
-        samples: how many, evenly spaced. Left out, they lie at most 25 us apart (at least 2001, at
-            most 1000001 of them).
+        samples: how many, evenly spaced, 2 to 10000000. Left out, at least 2001, at most 25 us apart in
+            runs of up to 25 s; in longer ones 1000001, farther apart.
         initial_state: (n_state,) in the order of `model.STATE`; left out, at rest in the reference state.
         method: "DOP853", "RK45", or with the Jacobian, for short relaxation times, "Radau", "BDF", "LSODA";
             "auto" takes Radau where the Jacobian at the start has a decay much faster than its vibration,
@@ -76,16 +79,27 @@ def simulate(
     duration = check_duration(duration)
     rtol, atol = check_tolerances(rtol, atol)
     checks.choice("method", method, METHODS)
+    checks.instance("limits", limits, Limits)
+    _check_offers(module, method, energies)
     problem = make_problem(module, parameters, material, held_stretch, force, field)
     _check_single(problem)
     for entry, drive in zip(module.INPUTS, problem.drives):
-        drive.check_window(entry.name, 0.0, duration)
-    times = _output_times(time, samples, duration)
+        drive.check_window(input_name(entry.name), 0.0, duration)
+    times = output_times(time, samples, duration)
     start = initial_values(problem, initial_state)
     trajectory = integrate(problem, start, times, duration, method, rtol, atol, limits, progress)
     numerics = {"method": trajectory.method, "rtol": rtol, "atol": atol, "duration": duration}
     attributes = run_attributes(problem, parameters.replace(**material), limits) | numerics
     return _dataset(problem, times, trajectory, energies, attributes)
+
+
+def _check_offers(module: ModuleType, method: str, energies: bool) -> None:
+    if method not in _EXPLICIT:
+        check_offers(module, ("jacobian",), f"method {method!r}")
+    if energies:
+        check_offers(module, _ENERGIES, "energies=True")
+    if getattr(module, "REACTIONS", ()):
+        check_offers(module, ("reaction_forces",), "REACTIONS")
 
 
 def _check_single(problem: Problem) -> None:
@@ -94,15 +108,21 @@ def _check_single(problem: Problem) -> None:
         *zip(problem.model.INPUTS, problem.inputs(0.0)),
     ]
     for entry, value in entries:
-        checks.scalar(entry.name, value, entry.unit)
+        checks.scalar(input_name(entry.name), value, entry.unit)
 
 
-def _output_times(time: np.ndarray | None, samples: int | None, duration: float) -> np.ndarray:
+def output_times(time: np.ndarray | None, samples: int | None, duration: float) -> np.ndarray:
+    """The times [s] of the output, (n_times,): as given, or evenly spaced.
+
+    Raises:
+        ValueError: both given, times out of order or out of the run, or too few or too many samples.
+    """
     if time is not None and samples is not None:
-        raise ValueError(f"time and samples = {samples} both given; give one")
+        raise ValueError(f"time and samples = {shown(samples)} both given; give one")
     if time is None:
         wanted = int(np.clip(np.ceil(duration / _SPACING) + 1, _FEWEST_SAMPLES, _MOST_SAMPLES))
-        return np.linspace(0.0, duration, wanted if samples is None else checks.count("samples", samples, 2))
+        wanted = wanted if samples is None else checks.count("samples", samples, *_SAMPLES_RANGE)
+        return np.linspace(0.0, duration, wanted)
     times = checks.increasing("time", time, "s")
     if times[0] < 0 or times[-1] > duration:
         raise ValueError(
@@ -135,8 +155,8 @@ def initial_values(problem: Problem, given: np.ndarray | None) -> np.ndarray:
 def _dataset(
     problem: Problem, times: np.ndarray, trajectory: Trajectory, energies: bool, attributes: dict[str, object]
 ) -> xr.Dataset:
-    inputs = [np.broadcast_to(values, times.shape) for values in problem.inputs(times)]
     with np.errstate(all="ignore"):
+        inputs = [np.broadcast_to(values, times.shape) for values in problem.inputs(times)]
         data = {
             **_state_variables(problem, trajectory.state),
             **_input_variables(problem, inputs),

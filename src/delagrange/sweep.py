@@ -12,15 +12,15 @@ import numpy as np
 
 from delagrange import checks, loss
 from delagrange.drive import Drive, Sine
-from delagrange.ensemble import integrate_lanes
+from delagrange.ensemble import Report, integrate_lanes
 from delagrange.extrema import EXTREMA
 from delagrange.grid import Grid, make_grid
-from delagrange.lanes import Outcome, Settings, empty_outcome
+from delagrange.lanes import Interrupted, Outcome, Settings, empty_outcome
 from delagrange.loss import Limits
 from delagrange.oracle import integrate_one_by_one
 from delagrange.parameters import CHANGEABLE_UNITS, Parameters, check_material_names
 from delagrange.problem import Problem, make_problem
-from delagrange.progress import progress_bar
+from delagrange.progress import Progress, progress_bar
 from delagrange.step_control import STEP_CONTROLS, step_control
 from delagrange.tableau import tableau
 from delagrange.tolerances import check_duration, check_tolerances, check_window
@@ -34,13 +34,13 @@ SWEEP_UNITS: Mapping[str, str] = {**INPUT_UNITS, **POSITIVE_UNITS}
 class Engine:
     """A way to integrate lanes, and how many of them it should be given at a time."""
 
-    integrate: Callable[[Problem, np.ndarray, Settings], Outcome]
+    integrate: Callable[[Problem, np.ndarray, Settings, Report], Outcome]
     chunk: int  # for "numpy" long enough to spread the cost of a call, short enough for the cache
 
 
 ENGINES: Mapping[str, Engine] = {
     "numpy": Engine(integrate_lanes, 4096),
-    "scipy": Engine(integrate_one_by_one, 8),
+    "scipy": Engine(integrate_one_by_one, 4096),
 }
 
 
@@ -81,6 +81,10 @@ def make_sweep(
     if given["held_stretch"] is None:
         del given["held_stretch"]
     force_drive = given.pop("force") if isinstance(given["force"], Drive) else None
+    if force_drive is not None and np.ndim(force_drive.at(0.0)) > 0:
+        raise ValueError(
+            f"force {force_drive} [N] is a drive with arrays; give plain values of force for an axis"
+        )
     check_material_names({name: value for name, value in given.items() if name not in _NO_MATERIAL})
     grid = make_grid({name: _checked(name, value) for name, value in given.items()}, SWEEP_UNITS, "frequency")
     sweep = Sweep(model, parameters, grid, force_drive, settings, ENGINES[engine])
@@ -115,6 +119,8 @@ def make_settings(
     Raises:
         ValueError: a value out of range, or choices that do not go together.
     """
+    if not isinstance(limits, Limits):
+        raise ValueError(f"limits must be a delagrange.Limits, got {limits!r}")
     duration = check_duration(duration)
     rtol, atol = check_tolerances(rtol, atol)
     checks.choice("method", method, ("DOP853", "RK45"))
@@ -139,14 +145,22 @@ def run_sweep(sweep: Sweep, progress: bool) -> Outcome:
     with progress_bar(progress, f"{model.MODEL} response", size, "runs") as bar:
         try:
             for lanes in _chunks(size, sweep.engine.chunk):
-                outcome.place_into(lanes, sweep.engine.integrate(*_chunk(sweep, lanes), sweep.settings))
+                outcome.place_into(lanes, _integrated(sweep, lanes, bar))
                 bar.advance_to(lanes.stop)
-        except KeyboardInterrupt:
+        except Interrupted as stopped:
+            outcome.place_into(lanes, stopped.outcome)
             left = int(np.sum(outcome.status == loss.INTERRUPTED))
             warnings.warn(
                 f"interrupted: {left} of {size} runs not computed, as their status says", stacklevel=3
             )
     return outcome
+
+
+def _integrated(sweep: Sweep, lanes: slice, bar: Progress) -> Outcome:
+    problem, state = _chunk(sweep, lanes)
+    return sweep.engine.integrate(
+        problem, state, sweep.settings, lambda done: bar.advance_to(lanes.start + done)
+    )
 
 
 def _chunks(size: int, length: int) -> Iterator[slice]:

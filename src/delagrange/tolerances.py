@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from delagrange import checks
+from delagrange.units import with_unit
 
 RTOL_RANGE = (1e-13, 1e-2)
 ATOL_RANGE = (1e-18, 1e-2)
+DURATION_RANGE = (1e-9, 1e6)  # [s], far beyond the fastest and the slowest membrane on both sides
 
 
 def check_tolerances(rtol: float, atol: float) -> tuple[float, float]:
@@ -20,12 +22,12 @@ def check_tolerances(rtol: float, atol: float) -> tuple[float, float]:
 
 
 def check_duration(duration: float) -> float:
-    """Duration [s], positive and finite.
+    """Duration [s].
 
     Raises:
-        ValueError: it is not.
+        ValueError: outside `DURATION_RANGE`.
     """
-    return checks.scalar("duration", checks.positive("duration", duration, "s"), "s")
+    return checks.within("duration", duration, "s", *DURATION_RANGE)
 
 
 def check_window(window: tuple[float, float] | None, duration: float) -> tuple[float, float]:
@@ -39,6 +41,6 @@ def check_window(window: tuple[float, float] | None, duration: float) -> tuple[f
     ends = checks.increasing("window", window, "s")
     if len(ends) != 2 or ends[0] < 0 or ends[1] > duration:
         raise ValueError(
-            f"window must be (start, end) with 0 s <= start < end <= {duration:g} s, got {window!r} s"
+            f"window must be (start, end) with 0 s <= start < end <= {duration:g} s, got {with_unit(window, 's')}"
         )
     return float(ends[0]), float(ends[1])

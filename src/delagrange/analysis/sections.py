@@ -22,16 +22,17 @@ def stroboscopic_section(
     transient: int = 0,
     **options: object,
 ) -> xr.Dataset:
-    """The run at the times t_k = (k + phase / 2 pi) period, k = transient ... transient + count - 1.
+    """The run at one phase of the drive in each period, for `count` periods after `transient` ones.
 
-    Exact phases: the values are those of the integrator's own polynomial at t_k, as accurate as its
-    steps, not picked from an output grid.
+    The times are t_k = (k + fraction) period, with the fraction in [0, 1) at which the argument of the
+    sine, 2 pi t / period plus the drive's own phase, is `phase` (modulo 2 pi). Exact phases: the values
+    are those of the integrator's own polynomial at t_k, not picked from an output grid.
 
     Args:
         model, field, force, options: as for `simulate` (without `duration`, `time` and `samples`).
         count: how many points.
-        period: [s]; left out, that of the sinusoidal field or force.
-        phase: [rad], from the start of the sine's own argument at t = 0.
+        period: [s]; left out, that of the sinusoidal field or force, whose own phase is then counted.
+        phase: [rad], of the argument of the sine.
         transient: how many periods to leave out at the beginning.
 
     Returns:
@@ -46,27 +47,35 @@ def stroboscopic_section(
             raise ValueError(f"{name} follows from count, transient and period here; leave it out")
     count = checks.count("count", count, 1)
     numbers = np.arange(count) + checks.count("transient", transient, 0)
-    period = _period(period, field, force)
+    period, start = _period(period, field, force)
     phase = checks.scalar("phase", checks.finite("phase", phase, "rad"), "rad")
-    times = (numbers + np.mod(phase, 2 * np.pi) / (2 * np.pi)) * period
+    times = (numbers + _fraction(phase - start)) * period
     duration = max(float(times[-1]), period)
     run = simulate(model, field=field, force=force, duration=duration, time=times, **options)
     return _over_points(run, numbers, {"period": period, "phase": phase})
 
 
-def _period(given: float | None, *drives: Drive | float) -> float:
+def _fraction(phase: float) -> float:
+    """Part of a period, in [0, 1), that an angle [rad] is; rounding must not make it a whole one."""
+    fraction = float(np.mod(phase / (2 * np.pi), 1.0))
+    return 0.0 if fraction == 1.0 else fraction
+
+
+def _period(given: float | None, *drives: Drive | float) -> tuple[float, float]:
+    """Period [s] of the section, and the phase [rad] of its drive at t = 0."""
     if given is not None:
-        return checks.scalar("period", checks.positive("period", given, "s"), "s")
-    periods = {
-        1 / float(drive.frequency)
+        return checks.scalar("period", checks.positive("period", given, "s"), "s"), 0.0
+    found = {
+        (1 / float(drive.frequency), float(drive.phase))
         for drive in drives
         if isinstance(drive, Sine) and np.ndim(drive.frequency) == 0
     }
-    if len(periods) != 1:
+    if len(found) != 1:
+        periods = sorted(period for period, _ in found)
         raise ValueError(
-            f"period [s] must be given where the drives do not have just one; they have {sorted(periods)}"
+            f"period [s] must be given where the drives do not have just one; they have {periods}"
         )
-    return periods.pop()
+    return found.pop()
 
 
 def _over_points(run: xr.Dataset, numbers: np.ndarray, attributes: dict[str, float]) -> xr.Dataset:

@@ -13,7 +13,7 @@ from delagrange.cli import options as o
 from delagrange.cli.interruption import interruptible
 from delagrange.cli.verdicts import show
 from delagrange.cli.verify import Details, as_recorded
-from delagrange.files import prepare_folder
+from delagrange.files import check_folder, prepare_folder
 
 if TYPE_CHECKING:
     from delagrange.derive.pipeline import Walked
@@ -47,8 +47,7 @@ def derive(
       delagrange derive --check
     """
     folder = out if out is not None else Path(str(resources.files("delagrange.generated")))
-    if not check:
-        prepare_folder(folder)
+    check_folder(folder) if check else prepare_folder(folder)
     with (
         interruptible("nothing was written"),
         console.messages(quiet).status("deriving, checking and emitting"),
@@ -57,8 +56,13 @@ def derive(
 
         walked = pipeline.walk()
     show(walked.verdicts, details)
-    stale = _stale(walked, folder) if check else _write(walked, folder)
-    if not as_recorded(walked.verdicts) or stale:
+    departed = not as_recorded(walked.verdicts)
+    if check:
+        failed = _stale(walked, folder) or departed
+    else:
+        failed = departed
+        _write(walked, folder, departed)
+    if failed:
         raise typer.Exit(1)
 
 
@@ -69,13 +73,19 @@ def _stale(walked: Walked, folder: Path) -> bool:
     old = pipeline.stale(walked.modules, folder)
     for name in old:
         console.complain(f"stale: {folder / name} is not what the derivation emits; run `delagrange derive`")
+    extra = pipeline.surplus(walked.modules, folder)
+    for name in extra:
+        console.complain(f"surplus: {folder / name} is not emitted by the derivation; remove it")
     print(f"{len(walked.modules) - len(old)} of {len(walked.modules)} modules in {folder} are as emitted")
-    return bool(old)
+    return bool(old or extra)
 
 
-def _write(walked: Walked, folder: Path) -> bool:
+def _write(walked: Walked, folder: Path, departed: bool) -> None:
+    """Write the modules, unless their equations are not those that were last looked at."""
     from delagrange.derive import pipeline
 
+    if departed:
+        console.complain("no module written, since a verdict is not the recorded one")
+        return
     pipeline.write(walked.modules, folder)
     print(f"written: {len(walked.modules)} modules in {folder}")
-    return False

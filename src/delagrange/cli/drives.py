@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
+from delagrange import checks
 from delagrange.cli import quantities
 from delagrange.drive import Constant, Drive, Ramp, Sine, Step, Tabulated
 
@@ -33,6 +34,7 @@ class DriveOptions:
         """
         self._refuse_two_drives()
         self._refuse_idle()
+        self._check_numbers()
         if self.table is not None:
             return Tabulated(*quantities.table(self.name, self.table, self.unit))
         if self.ramp is not None:
@@ -57,6 +59,20 @@ class DriveOptions:
                 f"{self.name} [{self.unit}] is driven by {self.frequency_option} and --{self.name}-step-time "
                 "at once; give one"
             )
+
+    def _check_numbers(self) -> None:
+        """Name the option of a bad number: a drive by itself knows neither it nor the unit."""
+        finite = (
+            (self.value_option, self.value, self.unit),
+            (f"--{self.name}-bias", self.bias, self.unit),
+            (f"--{self.name}-phase", self.phase, "rad"),
+            (f"--{self.name}-step-time", self.step_time, "s"),
+        )
+        for option, given, unit in finite:
+            if given is not None:
+                checks.finite(option, given, unit)
+        if self.frequency is not None:
+            checks.positive(self.frequency_option, self.frequency, "Hz")
 
     def _refuse_idle(self) -> None:
         """Refuse what would change nothing: it was meant to."""

@@ -42,12 +42,11 @@ def figures(out: o.OutFolder = Path("out/figures"), only: Only = None, quiet: o.
 def _figure_numbers(only: str | None) -> tuple[int, ...] | None:
     if only is None:
         return None
-    from delagrange.reproduction.cases import MOTIONS, RESPONSES
+    from delagrange.figures.gallery import NUMBERS
 
-    responses = [figure.number for figure in RESPONSES]
-    known = sorted([*responses, *(n for pair in MOTIONS for n in (pair.history_number, pair.phase_number))])
+    known = [str(number) for number in NUMBERS]
     texts = [text.strip() for text in only.split(",")]
     for text in texts:
-        if text not in map(str, known):
-            raise ValueError(f"only must be figure numbers among {', '.join(map(str, known))}, got {text!r}")
+        if text not in known:
+            raise ValueError(f"only must be figure numbers among {', '.join(known)}, got {text!r}")
     return tuple(dict.fromkeys(map(int, texts)))

@@ -197,13 +197,17 @@ Viscosities = Annotated[list[str] | None, _material("viscosity", _values)]
 RelaxationTimes = Annotated[list[str] | None, _material("relaxation_time", _values)]
 
 # Integration
-Duration = Annotated[float, _number("s", "Duration of a run from t = 0, in s.", _NUMERICS)]
+Duration = Annotated[float, _number("s", "Duration of a run from t = 0, in s, 1e-9 to 1e6.", _NUMERICS)]
 Rtol = Annotated[
     float, _number("1", "Relative tolerance of the local error, a pure number, 1e-13 to 1e-2.", _NUMERICS)
 ]
 Atol = Annotated[
     float,
-    _number("1", "Absolute tolerance of the local error, in the unit of each state variable.", _NUMERICS),
+    _number(
+        "1",
+        "Absolute tolerance of the local error, in the unit of each state variable, 1e-18 to 1e-2.",
+        _NUMERICS,
+    ),
 ]
 Method = Annotated[
     str,
@@ -245,9 +249,9 @@ Samples = Annotated[
     int | None,
     typer.Option(
         metavar="COUNT",
-        help="Number of output times, evenly spaced from 0 to the duration.",
+        help="Number of output times, evenly spaced from 0 to the duration, 2 to 10000000.",
         rich_help_panel=_OUTPUT,
-        show_default="at most 25e-6 s apart",
+        show_default="at most 25e-6 s apart up to 25 s, then 1000001",
     ),
 ]
 Energies = Annotated[

@@ -10,6 +10,9 @@ from pathlib import Path
 import numpy as np
 import typer
 
+from delagrange import checks
+from delagrange.units import unit_name
+
 _LONGEST_RANGE = 1_000_000  # values; longer ones are slips of the step
 _WITHIN = 1e-9  # of a step: rounding that does not cost a range its last value
 
@@ -24,11 +27,6 @@ def number(name: str, text: str, unit: str) -> float:
         return float(text)
     except ValueError:
         raise ValueError(f"{name} must be a number in {unit_name(unit)}, got {text!r}") from None
-
-
-def unit_name(unit: str) -> str:
-    """The unit for a reader: `"1"` is a pure number."""
-    return "unit 1" if unit == "1" else unit
 
 
 def reader(unit: str) -> Callable[[str], float]:
@@ -91,10 +89,15 @@ def ramp(name: str, text: str, unit: str) -> list[float]:
     """START, STOP [unit], DURATION and, where given, BEGIN [s] of a ramp.
 
     Raises:
-        ValueError: another form.
+        ValueError: another form, a number that is not finite, or a duration that is not positive.
     """
     form = f"START:STOP:DURATION or START:STOP:DURATION:BEGIN, START and STOP in {unit}, times in s"
-    return _fields(name, text, form, (unit, unit, "s", "s"), fewest=3)
+    units = (unit, unit, "s", "s")
+    numbers = _fields(name, text, form, units, fewest=3)
+    for part, given, its_unit in zip(("start", "stop", "duration", "begin"), numbers, units, strict=False):
+        check = checks.positive if part == "duration" else checks.finite
+        check(f"{name} {part}", given, its_unit)
+    return numbers
 
 
 def window(text: str | None) -> tuple[float, float] | None:
@@ -113,22 +116,28 @@ def table(name: str, path: Path, unit: str) -> tuple[np.ndarray, np.ndarray]:
     """Times [s] and values [unit] of a CSV file of two columns; one line of headings may come first.
 
     Raises:
-        ValueError: the file cannot be read, or a line (named) is not two numbers.
+        ValueError: the file cannot be read, a line (named) is not two numbers, there are fewer than two
+            lines of them, a number is not finite, or the times do not increase.
     """
-    try:
-        with path.open(encoding="utf-8", newline="") as file:
-            rows = [(k, row) for k, row in enumerate(csv.reader(file), start=1) if row]
-    except (OSError, UnicodeDecodeError, csv.Error) as error:
-        raise ValueError(
-            f"{name} table {path} cannot be read: {getattr(error, 'strerror', None) or error}"
-        ) from error
-    if rows and not _is_number(rows[0][1][0]):
+    what = f"{name} table {path}"
+    rows = _rows(what, path)
+    if rows and not any(map(_is_number, rows[0][1])):
         rows = rows[1:]
-    pairs = [_pair(f"{name} table {path}, line {k}", row, unit) for k, row in rows]
-    if not pairs:
-        raise ValueError(f"{name} table {path} is empty; needed are two columns, time [s] and value [{unit}]")
+    pairs = [_pair(f"{what}, line {k}", row, unit) for k, row in rows]
+    if len(pairs) < 2:
+        held = f"holds {len(pairs)} line" if pairs else "is empty"
+        raise ValueError(f"{what} {held}; needed are two or more lines of time [s] and value [{unit}]")
     times, values = np.array(pairs).T
-    return times, values
+    return checks.increasing(f"{what}: time", times, "s"), checks.finite(f"{what}: value", values, unit)
+
+
+def _rows(what: str, path: Path) -> list[tuple[int, list[str]]]:
+    """The rows that are not empty, with their numbers; a byte order mark of a spreadsheet is no part of one."""
+    try:
+        with path.open(encoding="utf-8-sig", newline="") as file:
+            return [(k, row) for k, row in enumerate(csv.reader(file), start=1) if row]
+    except (OSError, UnicodeDecodeError, csv.Error) as error:
+        raise ValueError(f"{what} cannot be read: {getattr(error, 'strerror', None) or error}") from error
 
 
 def _pair(place: str, row: list[str], unit: str) -> tuple[float, float]:

@@ -12,7 +12,6 @@ from delagrange.cli import console, quantities
 from delagrange.cli import options as o
 from delagrange.cli.interruption import Interrupted, interruptible
 from delagrange.files import check_writable, write_dataset
-from delagrange.parameters import CHANGEABLE_UNITS
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -71,7 +70,9 @@ def sweep(
     """
     if out is not None:
         check_writable(out)
-    axes = {name: quantities.axis(name, context.params[name], unit) for name, unit in _units().items()}
+    from delagrange.sweep import SWEEP_UNITS
+
+    axes = {name: quantities.axis(name, context.params[name], unit) for name, unit in SWEEP_UNITS.items()}
     with interruptible("the sweep was not finished, nothing was written"):
         from delagrange.response import frequency_response
 
@@ -98,17 +99,6 @@ def sweep(
     if out is not None:
         print(f"written: {out}")
     _refuse_unfinished(response, f"are in {out} with that status" if out else "were not written")
-
-
-def _units() -> dict[str, str]:
-    drives = {
-        "force": "N",
-        "field_amplitude": "V/m",
-        "field_bias": "V/m",
-        "held_stretch": "1",
-        "frequency": "Hz",
-    }
-    return drives | dict(CHANGEABLE_UNITS)
 
 
 def _refuse_unfinished(response: xr.Dataset, where: str) -> None:

@@ -35,7 +35,7 @@ def verify(details: Details = False, markdown: Markdown = None, quiet: o.Quiet =
     Eqs. (4)-(22) ought to say. The verdict on each printed equation is 'equal',
     'equal after scaling' by a nonzero factor, 'differs' (yellow where one edit
     of the print mends it), or 'missing in the text'. Each is proved symbolically
-    and confirmed at random points in high precision. Takes some 20 s.
+    and confirmed at random points in high precision. Takes some seconds.
 
     Exit code 1 where a verdict is not the recorded one.
 

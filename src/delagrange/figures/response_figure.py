@@ -11,6 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure, SubFigure
 from matplotlib.lines import Line2D
 
+from delagrange.dataset import PAPER as SOURCE
 from delagrange.figures.data import by_formulation, of_formulation, side_by_side
 from delagrange.figures.notation import (
     DRIVE_TEXT,
@@ -29,10 +30,9 @@ from delagrange.figures.style import (
     panel_letter,
 )
 from delagrange.reproduction.all_runs import Runs
-from delagrange.reproduction.cases import PAPER as SOURCE
 from delagrange.reproduction.cases import Load, Panel, ResponseFigure
 from delagrange.reproduction.published_numbers import PEAKS, Peak
-from delagrange.reproduction.runs import ACCURATE, NUMERICS, PAPER, curve, formulations
+from delagrange.reproduction.runs import ACCURATE, NUMERICS, PAPER_LIKE, curve, formulations
 
 _LARGEST_LINEAR = 2.5  # amplitude [1]
 _MARGIN = 0.95  # height of the axes at which what has no amplitude is marked
@@ -79,7 +79,7 @@ def _draw_block(block: SubFigure, data: xr.Dataset, case: ResponseFigure) -> Non
 
 def _draw_panel(axes: Axes, data: xr.Dataset, case: ResponseFigure, panel: Panel) -> None:
     for load, colour in zip(panel.loads, CURVE_COLOURS):
-        accurate, rough = (curve(data.sel(numerics=numerics.name), load) for numerics in (ACCURATE, PAPER))
+        accurate, rough = (curve(data.sel(numerics=numerics.name), load) for numerics in (ACCURATE, PAPER_LIKE))
         axes.plot(
             rough["frequency"], rough["amplitude"], color=colour, linewidth=0.7, linestyle=(0, (3, 1.5))
         )
@@ -157,7 +157,7 @@ def _legend(figure: Figure, data: xr.Dataset, case: ResponseFigure) -> None:
     printed = [peak for load in case.loads for peak in peaks_of(case, load)]
     entries = [
         Line2D([], [], color=BLACK, label="accurate"),
-        Line2D([], [], color=BLACK, linewidth=0.7, linestyle=(0, (3, 1.5)), label="the paper's own numerics"),
+        Line2D([], [], color=BLACK, linewidth=0.7, linestyle=(0, (3, 1.5)), label="numerics like the paper's"),
         Line2D([], [], **_PEAK, markeredgecolor=BLACK, label="printed peak"),
     ]
     if any(peak.amplitude is None for peak in printed):
@@ -175,12 +175,12 @@ def _losses(data: xr.Dataset) -> str:
     """At how many points the solution was lost, in which numerics; nothing where it never was."""
     lost = {
         name: int((data["status"].sel(numerics=name) != "completed").sum())
-        for name in (ACCURATE.name, PAPER.name)
+        for name in (ACCURATE.name, PAPER_LIKE.name)
     }
     if not any(lost.values()):
         return ""
-    accurate, rough = lost[ACCURATE.name], lost[PAPER.name]
-    return f"Solution lost at {accurate} points accurate, at {rough} in the paper's own numerics. "
+    accurate, rough = lost[ACCURATE.name], lost[PAPER_LIKE.name]
+    return f"Solution lost at {accurate} points accurate, at {rough} in numerics like the paper's. "
 
 
 def _caption(data: xr.Dataset, case: ResponseFigure) -> str:
@@ -188,5 +188,5 @@ def _caption(data: xr.Dataset, case: ResponseFigure) -> str:
     return (
         f"Fig. {case.number}. {notation.title}: {DRIVE_TEXT}. Amplitude: {data.attrs['definition']}, "
         f"0 to {case.window:g} s; grid of {case.frequency_step:g} Hz. Accurate: {ACCURATE.description}. "
-        f"The paper's own numerics: {PAPER.description}. {_losses(data)}Printed values: {SOURCE}, Sec. III."
+        f"Numerics like the paper's: {PAPER_LIKE.description}. {_losses(data)}Printed values: {SOURCE}, Sec. III."
     )

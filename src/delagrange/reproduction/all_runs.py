@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-import signal
 from collections.abc import Iterator, Mapping
-from concurrent.futures import ProcessPoolExecutor, as_completed
-from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass
-from multiprocessing import get_context
+from functools import partial
 from pathlib import Path
 
 import xarray as xr
@@ -15,6 +12,7 @@ import xarray as xr
 from delagrange.files import prepare_folder
 from delagrange.progress import progress_bar
 from delagrange.reproduction.numerics import ACCURATE
+from delagrange.reproduction.processes import side_by_side
 from delagrange.reproduction.runs import Job, jobs
 from delagrange.reproduction.store import keep, kept
 
@@ -82,38 +80,12 @@ def _run_all(wanted: tuple[Job, ...], folder: Path, processes: int) -> Iterator[
             left.append(job)
         else:
             yield job, dataset
-    if processes > 1 and len(left) > 1:
-        for job in _run_aside(tuple(left), folder, processes):
-            left.remove(job)
-            yield job, run(job, folder)
-    for job in left:  # what no other process could do
+    for job, _ in side_by_side(partial(_run_and_keep, folder), left, processes):
         yield job, run(job, folder)
 
 
-def _run_aside(wanted: tuple[Job, ...], folder: Path, processes: int) -> Iterator[Job]:
-    """Run jobs in other processes and name each as it is done; ends early where processes cannot be had."""
-    context = get_context("spawn")
-    try:
-        pool = ProcessPoolExecutor(min(processes, len(wanted)), context, initializer=_die_quietly)
-    except (OSError, NotImplementedError, ImportError):
-        return
-    try:
-        futures = {pool.submit(_run_and_keep, job, folder): job for job in wanted}
-        for future in as_completed(futures):
-            future.result()
-            yield futures[future]
-    except BrokenProcessPool:
-        return
-    finally:
-        pool.shutdown(wait=True, cancel_futures=True)
-
-
-def _die_quietly() -> None:
-    """An interruption from the keyboard reaches every process; only the first one has to say so."""
-    signal.signal(signal.SIGINT, signal.SIG_DFL)
-
-
-def _run_and_keep(job: Job, folder: Path) -> None:
+def _run_and_keep(folder: Path, job: Job) -> None:
+    """The result stays on disk, where the first process reads it."""
     run(job, folder)
 
 

@@ -11,8 +11,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-PAPER = "Sheng et al. (2015), J. Appl. Phys., doi:10.1063/1.4913384"
-
 
 @dataclass(frozen=True)
 class Load:

@@ -1,17 +1,16 @@
-"""Each printed peak beside ours: accurate, with its error stated, and in the paper's own numerics."""
+"""Each printed peak beside ours: accurate, with its error stated, and in numerics like the paper's."""
 
 from __future__ import annotations
 
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
-from multiprocessing import get_context
 
 import numpy as np
 import xarray as xr
 
 from delagrange.reproduction.all_runs import Runs
 from delagrange.reproduction.cases import RESPONSES, Load, ResponseFigure
-from delagrange.reproduction.numerics import PAPER
+from delagrange.reproduction.numerics import PAPER_LIKE
+from delagrange.reproduction.processes import side_by_side
 from delagrange.reproduction.published_numbers import PEAKS, Peak
 from delagrange.reproduction.responses import curve
 from delagrange.reproduction.runs import formulations
@@ -42,6 +41,17 @@ class Comparison:
     formulation: str | None
     accurate: Found
     accurate_error: float  # of the amplitude at that frequency, against an independent integration [1]
+    paper_numerics: Found
+
+
+@dataclass(frozen=True)
+class PeakTask:
+    """A printed peak with the computed ones, its witness still to be integrated."""
+
+    figure: ResponseFigure
+    formulation: str | None
+    peak: Peak
+    accurate: Found
     paper_numerics: Found
 
 
@@ -79,26 +89,27 @@ def compare_peaks(runs: Runs, processes: int = 2) -> tuple[Comparison, ...]:
     """Every printed peak, in both formulations where there are two; the witnesses integrate side by side."""
     figures = {figure.number: figure for figure in RESPONSES}
     tasks = [
-        (figures[peak.figure], formulation, peak, *_both(runs, peak, formulation))
+        PeakTask(figures[peak.figure], formulation, peak, *_both(runs, peak, formulation))
         for peak in PEAKS
         for formulation in formulations(figures[peak.figure].model)
     ]
-    with ProcessPoolExecutor(processes, get_context("spawn")) as pool:
-        return tuple(pool.map(_compare, *zip(*tasks, strict=True)))
+    compared = dict(side_by_side(compare, tasks, processes))
+    return tuple(compared[task] for task in tasks)
 
 
 def _both(runs: Runs, peak: Peak, formulation: str | None) -> tuple[Found, Found]:
     return (
         found_peak(runs.response(peak.figure, formulation), peak.load),
-        found_peak(runs.response(peak.figure, formulation, PAPER.name), peak.load),
+        found_peak(runs.response(peak.figure, formulation, PAPER_LIKE.name), peak.load),
     )
 
 
-def _compare(
-    figure: ResponseFigure, formulation: str | None, peak: Peak, accurate: Found, paper_numerics: Found
-) -> Comparison:
-    error = amplitude_error(figure, formulation, peak.load, accurate)
-    return Comparison(peak, figure.model, formulation, accurate, error, paper_numerics)
+def compare(task: PeakTask) -> Comparison:
+    """Measure the error of the accurate peak, and put everything side by side."""
+    error = amplitude_error(task.figure, task.formulation, task.peak.load, task.accurate)
+    return Comparison(
+        task.peak, task.figure.model, task.formulation, task.accurate, error, task.paper_numerics
+    )
 
 
 def agreement(peak: Peak, found: Found) -> str:

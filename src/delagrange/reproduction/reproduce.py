@@ -9,6 +9,7 @@ from rich.console import Console
 
 from delagrange.figures.gallery import draw_figures
 from delagrange.files import prepare_folder
+from delagrange.reproduction import record
 from delagrange.reproduction.all_runs import all_runs
 from delagrange.reproduction.numbers import compare_peaks
 from delagrange.reproduction.statements import judge
@@ -19,7 +20,7 @@ def reproduce(out: Path, progress: bool = True) -> int:
     """Walk the whole road and write what it gives under `out`.
 
     Returns:
-        0, or 1 where a verdict departs from its record or a generated module is stale.
+        0, or 1 where a verdict, a number or an answer departs from its record or a generated module is stale.
 
     Raises:
         ValueError: `out` cannot be written.
@@ -39,7 +40,11 @@ def reproduce(out: Path, progress: bool = True) -> int:
 
     console.rule("compare")
     with console.status("integrating the witnesses of the peaks ..."):
-        tables = (verdicts, numbers_table(compare_peaks(runs)), statements_table(judge(runs)))
+        comparisons, judgements = compare_peaks(runs), judge(runs)
+    found = record.as_record(comparisons, judgements)
+    record.write(found, out)
+    departed = record.departures(found, record.recorded())
+    tables = (verdicts, numbers_table(comparisons), statements_table(judgements))
     report = _write(tables, out)
     screen = Console()
     for table in tables:
@@ -48,7 +53,9 @@ def reproduce(out: Path, progress: bool = True) -> int:
         f"{len(figures)} files of figures in {out / 'figures'}; tables in {report} and beside it as CSV"
     )
     screen.print(f"{time.monotonic() - began:.0f} s")
-    return status
+    for line in departed:
+        console.print(f"[red]not as recorded:[/red] {line}")
+    return 1 if departed else status
 
 
 def _derive(console: Console) -> tuple[Table, int]:

@@ -8,18 +8,22 @@ from __future__ import annotations
 import numpy as np
 import xarray as xr
 
-from delagrange.dataset import run_attributes, status_time_variable, status_variable, variable
+from delagrange.dataset import (
+    AMPLITUDE_DEFINITION,
+    extrema_variables,
+    run_attributes,
+    status_time_variable,
+    status_variable,
+    variable,
+)
 from delagrange.drive import Sine
 from delagrange.ensemble import integrate_lanes
 from delagrange.lanes import Outcome
-from delagrange.loss import COMPLETED
-from delagrange.models import coordinate_names, load_model
+from delagrange.models import load_model
 from delagrange.parameters import SHENG_2015
 from delagrange.problem import Problem, make_problem
 from delagrange.reproduction.cases import Load, ResponseFigure
 from delagrange.reproduction.numerics import ACCURATE, Numerics
-
-AMPLITUDE = "half of peak to peak over the window, transient included"
 
 
 def response(
@@ -66,8 +70,12 @@ def _response_dataset(
 ) -> xr.Dataset:
     dimensions, shape = ("load", "frequency"), (len(figure.loads), len(frequency))
     settings = numerics.settings(figure.window)
-    window = {"definition": AMPLITUDE, "window_start": settings.window[0], "window_stop": settings.window[1]}
-    data = _extrema_variables(problem, outcome, shape, window)
+    window = {
+        "definition": AMPLITUDE_DEFINITION,
+        "window_start": settings.window[0],
+        "window_stop": settings.window[1],
+    }
+    data = extrema_variables(problem.model, outcome, dimensions, shape, window)
     data["status"] = status_variable(dimensions, outcome.status.reshape(shape))
     data["status_time"] = status_time_variable(dimensions, outcome.status_time.reshape(shape))
     attributes = run_attributes(problem, SHENG_2015, settings.limits) | window | numerics.attributes()
@@ -80,24 +88,6 @@ def _response_dataset(
     frequencies = variable("frequency", frequency, "Hz", "frequency of the electric field", "f")
     coordinates = _load_coordinates(figure.loads) | {"frequency": frequencies}
     return xr.Dataset(data, coords=coordinates, attrs=attributes)
-
-
-def _extrema_variables(
-    problem: Problem, outcome: Outcome, shape: tuple[int, int], window: dict[str, object]
-) -> dict[str, tuple]:
-    """Amplitude, maximum and minimum of every coordinate; those of the first go without its name."""
-    completed = outcome.status.reshape(shape) == COMPLETED
-    data = {}
-    for place, name in enumerate(coordinate_names(problem.model)):
-        maximum, minimum = outcome.maximum[place].reshape(shape), outcome.minimum[place].reshape(shape)
-        amplitude = np.where(completed, (maximum - minimum) / 2, np.nan)
-        entry, prefix = problem.model.STATE[place], f"{name}_" if place else ""
-        for what, values in (("amplitude", amplitude), ("maximum", maximum), ("minimum", minimum)):
-            long_name = f"{what} of the {entry.meaning}"
-            data[prefix + what] = variable(
-                ("load", "frequency"), values, entry.unit, long_name, entry.symbol, **window
-            )
-    return data
 
 
 def _load_coordinates(loads: tuple[Load, ...]) -> dict[str, tuple]:

@@ -12,12 +12,12 @@ import xarray as xr
 from delagrange.parameters import SHENG_2015
 from delagrange.reproduction.cases import MOTIONS, RESPONSES, MotionFigures, ResponseFigure
 from delagrange.reproduction.motions import SECTION_POINTS, motion, motions, section, sections
-from delagrange.reproduction.numerics import ACCURATE, NUMERICS, PAPER, Numerics
+from delagrange.reproduction.numerics import ACCURATE, NUMERICS, PAPER_LIKE, Numerics
 from delagrange.reproduction.responses import curve, response
 from delagrange.reproduction.store import digest
 
 __all__ = [
-    "ACCURATE", "NUMERICS", "PAPER", "SECTION_POINTS", "Job", "Numerics", "curve", "formulations", "jobs",
+    "ACCURATE", "NUMERICS", "PAPER_LIKE", "SECTION_POINTS", "Job", "Numerics", "curve", "formulations", "jobs",
     "motion", "motions", "response", "section", "sections",
 ]  # fmt: skip
 
@@ -64,7 +64,7 @@ def jobs(only: tuple[int, ...] | None = None) -> tuple[Job, ...]:
     responses = [(figure.number, figure) for figure in RESPONSES]
     phases = [(figures.phase_number, figures) for figures in MOTIONS]
     histories = [(figures.history_number, figures) for figures in MOTIONS]
-    order = [(responses, ACCURATE), (phases, ACCURATE), (responses, PAPER), (histories, ACCURATE)]
+    order = [(responses, ACCURATE), (phases, ACCURATE), (responses, PAPER_LIKE), (histories, ACCURATE)]
     every = [
         Job(number, case, formulation, numerics)
         for cases, numerics in order
