@@ -64,7 +64,9 @@ def test_energy_falls_at_the_rate_that_the_dashpots_dissipate(model, data, param
     )
     lost = model.dashpot_power(state, inputs, parameters)
     L, H, *_, beta, viscosity = parameters[:7]
-    terms = 8 * L**2 * H * beta**2 / viscosity  # size of what cancels in the dissipated power of a relaxed dashpot
+    terms = (
+        8 * L**2 * H * beta**2 / viscosity
+    )  # size of what cancels in the dissipated power of a relaxed dashpot
     scale = max(abs(energy.imag) * 1e200 for energy in energies) + abs(lost) + terms
     assert sum(energy.imag for energy in energies) * 1e200 == pytest.approx(-lost, abs=1e-10 * scale)
     assert lost >= -1e-12 * scale

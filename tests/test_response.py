@@ -314,3 +314,30 @@ def test_peaks_of_something_else_are_refused():
     run = dl.simulate("equal_biaxial", duration=1e-4, samples=3)
     with pytest.raises(ValueError, match="peaks needs the Dataset of frequency_response"):
         dl.peaks(run)
+
+
+@pytest.mark.parametrize(
+    ("values", "status"),
+    [
+        ({"half_length": [1e300, 5e-3], "field_amplitude": 1e6}, ["diverged", "completed"]),
+        ({"density": [1e308, 1.2e3], "field_amplitude": 1e6}, ["diverged", "completed"]),
+    ],
+)
+def test_a_lane_beyond_double_precision_ends_alone(values, status):
+    """It must neither crawl for ever nor touch its neighbour."""
+    response = dl.frequency_response("equal_biaxial", frequency=[300.0], duration=1e-3, **values)
+    assert list(response["status"].values.ravel()) == status
+    alone = dl.frequency_response("equal_biaxial", frequency=[300.0], duration=1e-3, field_amplitude=1e6)
+    assert response["amplitude"].values.ravel()[1] == alone["amplitude"].values.ravel()[0]
+
+
+def test_a_field_beyond_any_sense_is_refused():
+    with pytest.raises(
+        ValueError, match=r"field_amplitude must lie from -1e\+15 to 1e\+15 V/m, got 1e\+200 V/m"
+    ):
+        dl.frequency_response("equal_biaxial", frequency=[300.0], duration=1e-3, field_amplitude=[1e200, 1e6])
+
+
+def test_a_ramp_too_short_to_be_one_is_refused():
+    with pytest.raises(ValueError, match="Ramp duration must be at least 1e-12 s"):
+        dl.Ramp(0.0, 1e6, 1e-320)

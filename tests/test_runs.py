@@ -10,8 +10,7 @@ import pytest
 import xarray as xr
 
 import delagrange as dl
-from delagrange.reproduction import all_runs as execution
-from delagrange.reproduction import store
+from delagrange.reproduction import processes, store
 from delagrange.reproduction.all_runs import Runs, all_runs, run_all
 from delagrange.reproduction.cases import MOTIONS, RESPONSES, Load
 from delagrange.reproduction.numerics import numerics_named
@@ -37,7 +36,9 @@ def near_the_peaks():
     """Fig. 4 in both numerics at the printed peak frequencies and beside them."""
     printed = sorted(peak.frequency for peak in PEAKS if peak.figure == 4)
     frequency = np.unique(np.add.outer(printed, [-1.0, 0.0, 1.0]))
-    return {numerics.name: response(FIG_4, numerics, frequency=frequency) for numerics in (ACCURATE, PAPER_LIKE)}
+    return {
+        numerics.name: response(FIG_4, numerics, frequency=frequency) for numerics in (ACCURATE, PAPER_LIKE)
+    }
 
 
 @pytest.mark.parametrize("peak", [peak for peak in PEAKS if peak.figure == 4], ids=str)
@@ -161,7 +162,7 @@ def test_without_processes_the_jobs_run_here(tmp_path, monkeypatch):
     def refused(*_, **__):
         raise PermissionError("no semaphores here")
 
-    monkeypatch.setattr(execution, "ProcessPoolExecutor", refused)
+    monkeypatch.setattr(processes.ProcessPoolExecutor, "submit", refused)
     runs = run_all(SMALL, tmp_path, processes=2)
     assert list(runs.datasets) == [(4, None, "accurate"), (4, None, "paper")]
 

@@ -119,6 +119,9 @@ class Step(Drive):
         return Constant(self.at(start))
 
 
+SHORTEST_RAMP = 1e-12  # [s]; a shorter one is a step to any integrator
+
+
 @dataclass(frozen=True)
 class Ramp(Drive):
     """From `start` to `stop`, linearly, within `duration` [s] after `begin` [s]; constant outside."""
@@ -132,6 +135,10 @@ class Ramp(Drive):
         _set_finite(self, "start", "stop")
         _set_finite(self, "begin", unit="s")
         _set_positive(self, "duration", "s")
+        if np.min(self.duration) < SHORTEST_RAMP:
+            raise ValueError(
+                f"Ramp duration must be at least {SHORTEST_RAMP:g} s, got {self.duration} s; use a Step"
+            )
 
     def at(self, time: Values) -> Values:
         done = np.clip((time - self.begin) / self.duration, 0.0, 1.0)

@@ -147,7 +147,11 @@ def _judge(problem: Problem, trial: Trial, settings: Settings, outcome: Outcome)
     """The lanes after the step, and which of them are lost (and written to `outcome`)."""
     principal = problem.principal_stretches(trial.end, trial.state)
     beyond = trial.accepted & ~(loss.margin(principal, settings.limits) > 0)
-    stuck = ~trial.accepted & (trial.next_step < settings.control.smallest_step(trial.before.time))
+    smallest = np.maximum(
+        settings.control.smallest_step(trial.before.time), loss.SMALLEST_STEP * settings.duration
+    )
+    resolved = trial.next_step >= smallest  # not so for NaN
+    stuck = ~trial.accepted & ~resolved
     if np.any(beyond):
         trial = _cut_at_loss(problem, trial, settings, np.flatnonzero(beyond))
     lanes = _after(trial, *widen(problem, trial, settings))

@@ -18,6 +18,8 @@ STATUS_MEANING = (
     "interrupted: not computed"
 )
 
+SMALLEST_STEP = 1e-16  # of the duration; near t = 0 double precision would let a hopeless run crawl for ever
+
 
 @dataclass(frozen=True)
 class Limits:

@@ -27,6 +27,7 @@ from delagrange.tolerances import check_duration, check_tolerances, check_window
 
 INPUT_UNITS: Mapping[str, str] = {"force": "N", "field_amplitude": "V/m", "field_bias": "V/m"}
 POSITIVE_UNITS: Mapping[str, str] = {"held_stretch": "1", **CHANGEABLE_UNITS, "frequency": "Hz"}
+LARGEST_INPUT = 1e15  # [N] or [V/m]; beyond, squares leave double precision and a run would never end
 SWEEP_UNITS: Mapping[str, str] = {**INPUT_UNITS, **POSITIVE_UNITS}
 
 
@@ -100,7 +101,11 @@ def _checked(name: str, value: object) -> float | np.ndarray:
     if name == "frequency":
         value = checks.increasing(name, value, "Hz")
     check = checks.positive if name in POSITIVE_UNITS else checks.finite
-    return check(name, value, SWEEP_UNITS[name])
+    checked = check(name, value, SWEEP_UNITS[name])
+    if name in INPUT_UNITS and np.max(np.abs(checked), initial=0.0) > LARGEST_INPUT:
+        allowed = f"from {-LARGEST_INPUT:g} to {LARGEST_INPUT:g} {SWEEP_UNITS[name]}"
+        raise ValueError(f"{name} must lie {allowed}, got {np.max(np.abs(checked)):g} {SWEEP_UNITS[name]}")
+    return checked
 
 
 def make_settings(

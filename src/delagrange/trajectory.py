@@ -44,7 +44,9 @@ class Stride:
     start: float  # [s]
     stop: float  # [s]
     state: np.ndarray  # (n_state,), at `stop`
-    dense: Callable[[np.ndarray], np.ndarray] | None  # state at times inside, until the next step; None if stuck
+    dense: (
+        Callable[[np.ndarray], np.ndarray] | None
+    )  # state at times inside, until the next step; None if stuck
     status: int  # COMPLETED while all is well
 
 

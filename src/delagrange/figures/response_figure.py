@@ -79,7 +79,9 @@ def _draw_block(block: SubFigure, data: xr.Dataset, case: ResponseFigure) -> Non
 
 def _draw_panel(axes: Axes, data: xr.Dataset, case: ResponseFigure, panel: Panel) -> None:
     for load, colour in zip(panel.loads, CURVE_COLOURS):
-        accurate, rough = (curve(data.sel(numerics=numerics.name), load) for numerics in (ACCURATE, PAPER_LIKE))
+        accurate, rough = (
+            curve(data.sel(numerics=numerics.name), load) for numerics in (ACCURATE, PAPER_LIKE)
+        )
         axes.plot(
             rough["frequency"], rough["amplitude"], color=colour, linewidth=0.7, linestyle=(0, (3, 1.5))
         )
@@ -157,7 +159,9 @@ def _legend(figure: Figure, data: xr.Dataset, case: ResponseFigure) -> None:
     printed = [peak for load in case.loads for peak in peaks_of(case, load)]
     entries = [
         Line2D([], [], color=BLACK, label="accurate"),
-        Line2D([], [], color=BLACK, linewidth=0.7, linestyle=(0, (3, 1.5)), label="numerics like the paper's"),
+        Line2D(
+            [], [], color=BLACK, linewidth=0.7, linestyle=(0, (3, 1.5)), label="numerics like the paper's"
+        ),
         Line2D([], [], **_PEAK, markeredgecolor=BLACK, label="printed peak"),
     ]
     if any(peak.amplitude is None for peak in printed):
