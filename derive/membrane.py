@@ -52,14 +52,12 @@ class Membrane:
     forces: tuple[Quantity, ...]  # P_1, P_2
     field: Quantity  # E
     parameters: tuple[Quantity, ...]
-    materials: tuple[StrainEnergy, StrainEnergy]  # springs alpha, beta
     principal_stretches: Stretches
     volume: sp.Expr  # of the body [m^3]
     kinetic_energy: sp.Expr  # T [J]
     energies: Energies  # parts of Pi [J]
     dashpot_deviators: Stretches  # deviatoric stresses on the dashpot [Pa]
     dashpot_rates: tuple[sp.Expr, ...]  # d xi_i/dt [1/s]
-    dashpot_power: sp.Expr  # dissipated power [W], in terms of the rates of xi_1, xi_2
 
 
 def time_derivative(expression: sp.Expr, moving: tuple[TimeDependent, ...]) -> sp.Expr:
@@ -141,14 +139,6 @@ def dashpot_strain_rates(stresses: Stretches) -> Stretches:
     return first, second, third
 
 
-def dissipated_power(stresses: Stretches, volume: sp.Expr) -> sp.Expr:
-    """Power [W] that the stresses do on the dashpot, in terms of the rates of xi_1 and xi_2."""
-    in_plane = [internal.rate.symbol / internal.value.symbol for internal in INTERNALS]
-    rates = (*in_plane, -sum(in_plane))
-    pairs = zip(deviators(stresses), rates, strict=True)
-    return volume * sum((deviator * rate for deviator, rate in pairs), sp.Integer(0))
-
-
 def membrane(spring_alpha: StrainEnergy, spring_beta: StrainEnergy) -> Membrane:
     """Put the full membrane together from the strain energies of its two springs."""
     stretches = principal_stretches()
@@ -166,7 +156,6 @@ def membrane(spring_alpha: StrainEnergy, spring_beta: StrainEnergy) -> Membrane:
             s.HALF_LENGTH, s.HALF_THICKNESS, s.DENSITY, s.PERMITTIVITY,
             *spring_alpha.parameters, *spring_beta.parameters, s.VISCOSITY,
         ),
-        materials=(spring_alpha, spring_beta),
         principal_stretches=stretches,
         volume=volume,
         kinetic_energy=kinetic_energy(place),
@@ -180,5 +169,4 @@ def membrane(spring_alpha: StrainEnergy, spring_beta: StrainEnergy) -> Membrane:
         dashpot_rates=tuple(
             internal.value.symbol * rate for internal, rate in zip(INTERNALS, strain_rates[:2], strict=True)
         ),
-        dashpot_power=dissipated_power(stresses, volume),
     )  # fmt: skip

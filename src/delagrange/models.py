@@ -103,8 +103,3 @@ def _checked(module: ModuleType) -> ModuleType:
     if missing:
         raise ValueError(f"module {module.__name__!r} is not a model: it lacks {', '.join(missing)}")
     return module
-
-
-def coordinate_names(model: ModuleType) -> tuple[str, ...]:
-    """Names of the coordinates, the first `COORDINATE_COUNT` entries of the state."""
-    return tuple(variable.name for variable in model.STATE[: model.COORDINATE_COUNT])

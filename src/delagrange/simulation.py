@@ -15,13 +15,12 @@ from delagrange.models import check_offers, load_model
 from delagrange.parameters import SHENG_2015, Parameters
 from delagrange.problem import Problem, input_name, make_problem
 from delagrange.tolerances import check_duration, check_tolerances
-from delagrange.trajectory import METHODS, Trajectory, integrate
+from delagrange.trajectory import EXPLICIT, METHODS, Trajectory, integrate
 from delagrange.units import shown
 
 _SPACING = 25e-6  # [s], some 40 samples in a period of the paper's membrane
 _FEWEST_SAMPLES, _MOST_SAMPLES = 2001, 1_000_001
 _SAMPLES_RANGE = (2, 10_000_000)
-_EXPLICIT = ("DOP853", "RK45")  # the methods that ask for no Jacobian
 
 
 def simulate(
@@ -94,7 +93,7 @@ def simulate(
 
 
 def _check_offers(module: ModuleType, method: str, energies: bool) -> None:
-    if method not in _EXPLICIT:
+    if method not in EXPLICIT:
         check_offers(module, ("jacobian",), f"method {method!r}")
     if energies:
         check_offers(module, _ENERGIES, "energies=True")

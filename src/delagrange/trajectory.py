@@ -22,7 +22,7 @@ _SOLVERS: dict[str, type[OdeSolver]] = {
     "BDF": BDF,
     "LSODA": LSODA,
 }
-_IMPLICIT = ("Radau", "BDF", "LSODA")
+EXPLICIT = ("DOP853", "RK45")  # the methods that ask for no Jacobian
 METHODS = (*_SOLVERS, "auto")
 _STIFF_RATIO = 30.0  # fastest decay over fastest vibration beyond which "auto" goes implicit
 
@@ -108,7 +108,7 @@ def _segment(
     atol: float,
     limits: Limits,
 ) -> Iterator[Stride]:
-    options = {"jac": problem.jacobian} if method in _IMPLICIT else {}
+    options = {"jac": problem.jacobian} if method not in EXPLICIT else {}
     solver = _SOLVERS[method](problem.rhs, start, state, stop, rtol=rtol, atol=atol, **options)
     while solver.status == "running":
         good = solver.t, solver.y
