@@ -162,7 +162,75 @@ CASES = {
     "window": (_sweep(window=(0.0, 2e-3)), "window must be .* 0.001 s"),
     "window order": (_sweep(window=(5e-4, 1e-4)), "window must be strictly increasing"),
     "sweep method": (_sweep(method="Radau"), "method must be one of DOP853, RK45"),
-    "engine": (_sweep(engine="fortran"), "engine must be one of numpy, scipy"),
+    "field phase": (_sweep(field_phase=[0.0, NAN]), "field_phase must be finite, got .* rad"),
+    "field phase text": (_sweep(field_phase="late"), "field_phase must be a number in rad, got 'late'"),
+    "field phases twice": (_sweep(field_phase=[1.0, 1.0]), "field_phase must not hold a value twice"),
+    "initial no mapping": (
+        _sweep(initial_state=[1.0, 0.0, 1.0]),
+        r"initial_state must map names .* got \[1, 0, 1\]; equal_biaxial has stretch \[1\], stretch_rate \[1/s\]",
+    ),
+    "initial name": (
+        _sweep(initial_state={"strech": 1.1}),
+        r"unknown state variable 'strech' in initial_state \(did you mean 'stretch'\?\); equal_biaxial has",
+    ),
+    "initial stretch": (
+        _sweep(initial_state={"stretch": [1.0, -1.0]}),
+        "initial_state stretch must be positive and finite",
+    ),
+    "initial inelastic stretch": (
+        _sweep("uniaxial", initial_state={"inelastic_stretch_2": 0.0}),
+        "initial_state inelastic_stretch_2 must be positive and finite, got 0$",
+    ),
+    "initial rate": (
+        _sweep(initial_state={"stretch_rate": INF}),
+        "initial_state stretch_rate must be finite, got inf 1/s",
+    ),
+    "initial grid": (
+        _sweep(initial_state={"stretch_rate": [[1.0, 2.0]]}),
+        "initial_stretch_rate must be one value or a one-dimensional grid .* 1/s",
+    ),
+    "averages": (_sweep(averages="yes"), "averages must be True or False, got 'yes'"),
+    "final state": (_sweep(final_state=1), "final_state must be True or False, got 1"),
+    "section points": (_sweep(section_points=0), "section_points must be an integer from 1 .* got 0"),
+    "section points float": (_sweep(section_points=2.5), "section_points must be an integer .* got 2.5"),
+    "too few sections": (
+        _sweep(frequency=[2000.0, 3000.0], section_points=3, section_phase=1.0),
+        "section_points must be at most 2, got 3: .* 0.001 s at frequency 2000 Hz passes the phase 1 rad",
+    ),
+    "far too many sections": (
+        _sweep(section_points=10**9, frequency=[1.0, 1e300]),
+        "section_points must be at most 1, got 1000000000",
+    ),
+    "no section": (
+        _sweep(frequency=[3000.0], field_amplitude=[1e6, 2e6], section_points=5),
+        "section_points must be at most 4, got 5: .* at frequency 3000 Hz",
+    ),
+    "section phase": (
+        _sweep(section_points=1, section_phase=NAN),
+        "section_phase must be finite, got nan rad",
+    ),
+    "section phases": (
+        _sweep(section_points=1, section_phase=[0.0, 1.0]),
+        "section_phase must be a single number, got .* rad",
+    ),
+    "phase alone": (_sweep(section_phase=1.0), "section_phase 1 rad given without section_points"),
+    "two samplings": (
+        _sweep(section_points=1, sample_interval=1e-4),
+        "section_points 1 and sample_interval 0.0001 s both given",
+    ),
+    "sample interval": (
+        _sweep(sample_interval=2e-3),
+        "sample_interval must lie from 1e-12 s to 0.001 s, got 0.002 s",
+    ),
+    "sample interval zero": (_sweep(sample_interval=0.0), "sample_interval must lie from .* got 0 s"),
+    "sample interval text": (_sweep(sample_interval="1 ms"), "sample_interval must be a number in s"),
+    "memory": (
+        _sweep(sample_interval=1e-12, duration=1e-3),
+        "result of 2 runs would take .* GiB .* for 1000000001 samples of 3 state variables .* 8.00 GiB are allowed",
+    ),
+    "threads": (_sweep(threads=0), "threads must be an integer of at least 1, got 0"),
+    "threads float": (_sweep(threads=1.5), "threads must be an integer of at least 1, got 1.5"),
+    "engine": (_sweep(engine="fortran"), "engine must be one of auto, .*numpy, scipy"),
     "control": (_sweep(step_control="pi"), "step_control must be one of scipy, ode45"),
     "control pair": (_sweep(step_control="ode45"), "step_control 'ode45' belongs to method 'RK45'"),
     "extrema": (_sweep(extrema="best"), "extrema must be one of dense, samples, steps"),

@@ -101,6 +101,38 @@ def test_sweep_as_documented(tmp_path):
     assert row.split() == ["0.2", "446", f"{peak:.6g}"]
 
 
+def test_what_is_measured_reaches_the_file(tmp_path, capsys):
+    out = tmp_path / "response.nc"
+    text = done(
+        capsys, "sweep", "uniaxial", "--field-amplitude", "1e6", "--frequency", "300,310", "--duration", "0.01",
+        "--field-phase", "0.5,1", "--initial", "stretch-1=1.1,1.2", "--initial", "stretch_1=1.3",
+        "--initial", "stretch_rate_2=-1:1:1", "--averages", "--final-state", "--section-points", "2",
+        "--section-phase", "-1", "--engine", "numpy", "--threads", "1", "--step-control", "scipy", "--out", str(out),
+    )  # fmt: skip
+    assert "completed: 36 of 36 runs" in text
+    same = dl.frequency_response(
+        "uniaxial", field_amplitude=1e6, frequency=[300.0, 310.0], duration=0.01, field_phase=[0.5, 1.0],
+        initial_state={"stretch_1": [1.1, 1.2, 1.3], "stretch_rate_2": [-1.0, 0.0, 1.0]}, averages=True,
+        final_state=True, section_points=2, section_phase=-1.0, engine="numpy",
+    )  # fmt: skip
+    xr.testing.assert_identical(xr.load_dataset(out), same)
+
+
+def test_trajectories_of_a_sweep_reach_a_table(tmp_path, capsys):
+    out = tmp_path / "response.csv"
+    done(
+        capsys, "sweep", "equal-biaxial", "--field-amplitude", "1e6", "--frequency", "300,310", "--duration", "0.001",
+        "--sample-interval", "5e-4", "--initial", "stretch=1.1", "--out", str(out),
+    )  # fmt: skip
+    with out.open(encoding="utf-8", newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert [(row["frequency [Hz]"], row["time [s]"]) for row in rows] == [
+        (frequency, time) for frequency in ("300.0", "310.0") for time in ("0.0", "0.0005", "0.001")
+    ]
+    assert {row["stretch [1]"] for row in rows if row["time [s]"] == "0.0"} == {"1.1"}
+    assert rows[0]["initial_stretch [1]"] == "1.1" and rows[0]["field_phase [rad]"] == "0.0"
+
+
 def test_the_summary_has_extrema_with_units(tmp_path, capsys):
     out = tmp_path / "run.nc"
     arguments = ["simulate", "uniaxial", "--force", "0.5", "--duration", "0.01", "--energies"]
@@ -391,6 +423,17 @@ SWEEP = ("sweep", "equal-biaxial", "--duration", "0.01", "--field-amplitude", "1
         ([*SWEEP, "--held-stretch", "2,3"], ["held_stretch", "holds no stretch"]),
         ([*SWEEP, "--density", "1,-1"], ["density", "kg/m^3", "positive"]),
         ([*SWEEP, "--extrema", "all"], ["extrema", "'all'", "dense"]),
+        ([*SWEEP, "--field-phase", "x"], ["field_phase", "rad", "'x'"]),
+        ([*SWEEP, "--initial", "1.1"], ["initial must be NAME=VALUES", "stretch [1]", "'1.1'"]),
+        ([*SWEEP, "--initial", "strech=1.1"], ["'strech=1.1'", "did you mean 'stretch'", "[1/s]"]),
+        ([*SWEEP, "--initial", "stretch=wide"], ["initial stretch", "unit 1", "'wide'"]),
+        ([*SWEEP, "--initial", "stretch_rate=fast"], ["initial stretch_rate", "1/s", "'fast'"]),
+        ([*SWEEP, "--initial", "stretch=0"], ["initial_state stretch", "positive", "0"]),
+        ([*SWEEP, "--section-points", "100"], ["section_points must be at most", "got 100", "Hz"]),
+        ([*SWEEP, "--section-phase", "1"], ["section_phase 1 rad", "section_points"]),
+        ([*SWEEP, "--sample-interval", "1"], ["sample_interval", "0.01 s", "got 1 s"]),
+        ([*SWEEP, "--threads", "0"], ["threads", "at least 1", "0"]),
+        ([*SWEEP, "--engine", "abacus"], ["engine", "'abacus'", "auto", "numpy", "scipy"]),
         (["figures", "--only", "3"], ["only", "'3'", "4, 5, 6"]),
     ],
 )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import _thread
 import threading
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -12,12 +13,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import delagrange as dl
-from delagrange import sweep as sweep_module
+from delagrange import engines
+from delagrange.engines import Numerics
 from delagrange.ensemble import integrate_lanes
 from delagrange.lanes import Interrupted, empty_outcome
 from delagrange.loss import INTERRUPTED, STATUS
 from delagrange.problem import make_problem
+from delagrange.sweep import make_settings
 
+NUMERICS = Numerics("DOP853", "numpy", "scipy", "dense")
 SHORT = {"duration": 0.01, "rtol": 1e-9, "atol": 1e-12}
 
 
@@ -114,10 +118,8 @@ def test_chunks_do_not_show(monkeypatch):
         "duration": 5e-3,
     }
     whole = dl.frequency_response("uniaxial", **sweep)
-    from delagrange import sweep as module
-
-    small = module.Engine(module.ENGINES["numpy"].integrate, chunk=3)
-    monkeypatch.setattr(module, "ENGINES", {**module.ENGINES, "numpy": small})
+    small = replace(engines.ENGINES[whole.attrs["engine"]], chunk=3)
+    monkeypatch.setattr(engines, "ENGINES", {**engines.ENGINES, whole.attrs["engine"]: small})
     xr.testing.assert_identical(dl.frequency_response("uniaxial", **sweep), whole)
 
 
@@ -235,17 +237,18 @@ def test_interrupted_between_chunks_the_default_engine_keeps_the_first(monkeypat
     whole = dl.frequency_response(
         "equal_biaxial", frequency=[300.0, 310.0, 320.0, 330.0], field_amplitude=1e6, duration=2e-3
     )
-    numpy_engine = sweep_module.ENGINES["numpy"]
+    name = whole.attrs["engine"]
+    default = engines.ENGINES[name]
     calls = []
 
-    def interrupted_later(problem, state, settings, report):
+    def interrupted_later(problem, state, *others):
         calls.append(1)
         if len(calls) == 2:
             raise Interrupted(empty_outcome(state, 1, INTERRUPTED))
-        return numpy_engine.integrate(problem, state, settings, report)
+        return default.integrate(problem, state, *others)
 
-    engine = sweep_module.Engine(interrupted_later, 2)
-    monkeypatch.setattr(sweep_module, "ENGINES", {"numpy": engine})
+    interrupted = replace(default, integrate=interrupted_later, chunk=2)
+    monkeypatch.setattr(engines, "ENGINES", {**engines.ENGINES, name: interrupted})
     with pytest.warns(UserWarning, match="interrupted: 2 of 4 runs not computed"):
         part = dl.frequency_response(
             "equal_biaxial", frequency=[300.0, 310.0, 320.0, 330.0], field_amplitude=1e6, duration=2e-3
@@ -266,11 +269,9 @@ def test_an_interruption_inside_a_chunk_carries_the_lanes_that_had_ended(monkeyp
     model = dl.load_model("equal_biaxial")
     problem = make_problem(model, dl.SHENG_2015, {}, None, 0.0, dl.Constant(np.array([3e7, 1e6])))
     state = np.repeat(model.reference_state(problem.parameters)[:, None], 2, axis=1)
-    settings = sweep_module.make_settings(
-        5e-3, None, 1e-8, 1e-11, "DOP853", "numpy", "scipy", "dense", dl.Limits()
-    )
+    settings = make_settings(5e-3, None, 1e-8, 1e-11, NUMERICS, dl.Limits())
     with pytest.raises(Interrupted) as interruption:
-        integrate_lanes(problem, state, settings, stop_late)
+        integrate_lanes(problem, state, settings, report=stop_late)
     status = [STATUS[code] for code in interruption.value.outcome.status]
     assert status == ["collapsed", "interrupted"]
     assert seen == sorted(seen) and 0 < seen[0] < seen[-1] <= 2
@@ -281,10 +282,8 @@ def test_progress_moves_while_a_chunk_runs():
     model = dl.load_model("equal_biaxial")
     problem = make_problem(model, dl.SHENG_2015, {}, None, 0.2, dl.Constant(np.array([1e6, 2e6])))
     state = np.repeat(model.reference_state(problem.parameters)[:, None], 2, axis=1)
-    settings = sweep_module.make_settings(
-        2e-3, None, 1e-8, 1e-11, "DOP853", "numpy", "scipy", "dense", dl.Limits()
-    )
-    integrate_lanes(problem, state, settings, seen.append)
+    settings = make_settings(2e-3, None, 1e-8, 1e-11, NUMERICS, dl.Limits())
+    integrate_lanes(problem, state, settings, report=seen.append)
     assert len(seen) > 5 and seen == sorted(seen) and seen[-1] == 2
 
 

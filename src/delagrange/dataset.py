@@ -13,6 +13,10 @@ from delagrange.parameters import Parameters
 from delagrange.problem import Problem
 
 AMPLITUDE_DEFINITION = "half of peak to peak over the window, transient included"
+AVERAGE_DEFINITIONS = {
+    "mean": "time average over the window, transient included",
+    "root_mean_square": "square root of the time average of the square over the window, transient included",
+}
 PAPER = "Sheng et al. (2015), J. Appl. Phys., doi:10.1063/1.4913384"
 
 
@@ -63,6 +67,58 @@ def extrema_variables(
         for what, values in (("amplitude", amplitude), ("maximum", maximum), ("minimum", minimum)):
             long_name = f"{what} of the {entry.meaning}"
             data[prefix + what] = variable(dimensions, values, entry.unit, long_name, entry.symbol, **measure)
+    return data
+
+
+def average_variables(
+    model: ModuleType,
+    outcome: Outcome,
+    dimensions: tuple[str, ...],
+    shape: tuple[int, ...],
+    measure: dict[str, object],
+) -> dict[str, tuple]:
+    """Mean and root mean square of every coordinate over a grid, NaN where the run was lost.
+
+    Named as the extrema are, each with its own definition.
+    """
+    completed = outcome.status == COMPLETED
+    averages = {"mean": outcome.mean, "root_mean_square": np.sqrt(outcome.mean_square)}
+    data = {}
+    for place, entry in enumerate(model.STATE[: model.COORDINATE_COUNT]):
+        prefix = f"{entry.name}_" if place else ""
+        for what, averaged in averages.items():
+            values = np.where(completed, averaged[place], np.nan).reshape(shape)
+            long_name = f"{what.replace('_', ' ')} of the {entry.meaning}"
+            attributes = measure | {"definition": AVERAGE_DEFINITIONS[what]}
+            data[prefix + what] = variable(
+                dimensions, values, entry.unit, long_name, entry.symbol, **attributes
+            )
+    return data
+
+
+def final_variables(
+    model: ModuleType, outcome: Outcome, dimensions: tuple[str, ...], shape: tuple[int, ...]
+) -> dict[str, tuple]:
+    """The state in which every run of a grid ended, at the loss where it was lost."""
+    return {
+        f"final_{entry.name}": variable(
+            dimensions, values.reshape(shape), entry.unit, f"{entry.meaning}, at the end", entry.symbol
+        )
+        for entry, values in zip(model.STATE, outcome.state)
+    }
+
+
+def sample_variables(
+    model: ModuleType, samples: np.ndarray, dimensions: tuple[str, ...], shape: tuple[int, ...], prefix: str
+) -> dict[str, tuple]:
+    """Samples of the state over a grid and one dimension more, of the samples.
+
+    samples: (count, n_state, n_runs), taken as they are: the variables are views of them
+    """
+    data = {}
+    for place, entry in enumerate(model.STATE):
+        values = np.moveaxis(samples[:, place].reshape(-1, *shape), 0, -1)
+        data[prefix + entry.name] = variable(dimensions, values, entry.unit, entry.meaning, entry.symbol)
     return data
 
 

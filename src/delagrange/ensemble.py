@@ -14,12 +14,14 @@ from itertools import pairwise
 import numpy as np
 
 from delagrange import loss
+from delagrange.averages import widen_integrals
 from delagrange.extrema import widen
-from delagrange.interpolation import evaluate, first_crossing, step_polynomial
+from delagrange.interpolation import evaluate, first_crossing, trial_polynomial
 from delagrange.lanes import (
     Interrupted,
     Lanes,
     Outcome,
+    Sampling,
     Settings,
     Trial,
     empty_outcome,
@@ -27,37 +29,50 @@ from delagrange.lanes import (
     joined,
 )
 from delagrange.problem import Problem
+from delagrange.recorder import keep_start, keep_step
 from delagrange.step_control import combine
 
 Report = Callable[[float], None]  # told how many runs' worth of time has been integrated
 
 
 def integrate_lanes(
-    problem: Problem, initial_state: np.ndarray, settings: Settings, report: Report | None = None
+    problem: Problem,
+    initial_state: np.ndarray,
+    settings: Settings,
+    sampling: Sampling | None = None,
+    report: Report | None = None,
 ) -> Outcome:
     """Integrate every lane from `initial_state`, (n_state, n_lanes), at t = 0 over the duration.
 
     Raises:
         Interrupted: from the keyboard; it carries the outcome of the lanes that had ended.
     """
-    outcome = empty_outcome(initial_state, problem.model.COORDINATE_COUNT, loss.INTERRUPTED)
+    samples = 0 if sampling is None else sampling.count
+    outcome = empty_outcome(initial_state, problem.model.COORDINATE_COUNT, loss.INTERRUPTED, samples)
     try:
         with np.errstate(all="ignore"):
-            _integrate_into(outcome, problem, initial_state, settings, report)
+            _integrate_into(outcome, problem, initial_state, settings, sampling, report)
     except KeyboardInterrupt as interruption:
         raise Interrupted(outcome) from interruption
     return outcome
 
 
 def _integrate_into(
-    outcome: Outcome, problem: Problem, initial_state: np.ndarray, settings: Settings, report: Report | None
+    outcome: Outcome,
+    problem: Problem,
+    initial_state: np.ndarray,
+    settings: Settings,
+    sampling: Sampling | None,
+    report: Report | None,
 ) -> None:
-    lanes = first_lanes(initial_state, problem.model.COORDINATE_COUNT)
+    if sampling is not None:
+        keep_start(outcome, sampling, initial_state)
+    lanes = first_lanes(initial_state, problem.model.COORDINATE_COUNT, settings.averages)
     lanes = _without_lost_at_start(problem, lanes, settings, outcome)
     for span in segments(problem, settings):
         inside = settings.window[0] <= span[0] and span[1] <= settings.window[1]
-        measured = settings if inside else replace(settings, extrema="none")
-        lanes = _run_segment(problem, lanes, measured, span, outcome, report)
+        measured = settings if inside else replace(settings, extrema="none", averages=False)
+        lanes = _run_segment(problem, lanes, measured, span, outcome, sampling, report)
 
 
 def _without_lost_at_start(problem: Problem, lanes: Lanes, settings: Settings, outcome: Outcome) -> Lanes:
@@ -82,6 +97,7 @@ def _run_segment(
     settings: Settings,
     span: tuple[float, float],
     outcome: Outcome,
+    sampling: Sampling | None,
     report: Report | None,
 ) -> Lanes:
     """Take the lanes to the end of the span; those that are lost on the way or done go to `outcome`."""
@@ -92,7 +108,7 @@ def _run_segment(
     arrived = [lanes.take(np.arange(0))]
     while len(lanes.index):
         trial = _try_step(running, lanes, settings, span[1], buffer)
-        lanes, lost = _judge(running, trial, settings, outcome)
+        lanes, lost = _judge(running, trial, settings, outcome, sampling)
         leaving = lost | (lanes.time >= span[1])
         if np.any(leaving):
             there = lanes.take(np.flatnonzero(leaving & ~lost))
@@ -143,8 +159,10 @@ def _try_step(problem: Problem, lanes: Lanes, settings: Settings, stop: float, b
     return Trial(lanes, step, stages, accepted, next_step, np.ones(len(step)), end, state)
 
 
-def _judge(problem: Problem, trial: Trial, settings: Settings, outcome: Outcome) -> tuple[Lanes, np.ndarray]:
-    """The lanes after the step, and which of them are lost (and written to `outcome`)."""
+def _judge(
+    problem: Problem, trial: Trial, settings: Settings, outcome: Outcome, sampling: Sampling | None
+) -> tuple[Lanes, np.ndarray]:
+    """The lanes after the step, and which of them are lost (and written to `outcome`, as samples are)."""
     principal = problem.principal_stretches(trial.end, trial.state)
     beyond = trial.accepted & ~(loss.margin(principal, settings.limits) > 0)
     smallest = np.maximum(
@@ -154,7 +172,10 @@ def _judge(problem: Problem, trial: Trial, settings: Settings, outcome: Outcome)
     stuck = ~trial.accepted & ~resolved
     if np.any(beyond):
         trial = _cut_at_loss(problem, trial, settings, np.flatnonzero(beyond))
-    lanes = _after(trial, *widen(problem, trial, settings))
+    if sampling is not None:
+        keep_step(outcome, sampling, problem, trial, settings)
+    integrals = widen_integrals(problem, trial, settings)
+    lanes = _after(trial, *widen(problem, trial, settings), integrals)
     if np.any(beyond | stuck):
         principal = problem.principal_stretches(trial.end, trial.state)
         kind = np.where(stuck, loss.DIVERGED, loss.kind_of_loss(principal, settings.limits))
@@ -167,7 +188,7 @@ def _cut_at_loss(problem: Problem, trial: Trial, settings: Settings, places: np.
     """The trial with the steps of the lost lanes, at `places`, ending where the limit is passed."""
     lost, some = trial.take(places), problem.take(places)
     before = lost.before
-    polynomial = step_polynomial(some, settings.tableau, lost.stages, before.time, lost.step, before.state)
+    polynomial = trial_polynomial(problem, trial, settings, places)
 
     def distance(fraction: np.ndarray) -> np.ndarray:
         state = evaluate(polynomial, fraction)
@@ -183,7 +204,7 @@ def _cut_at_loss(problem: Problem, trial: Trial, settings: Settings, places: np.
     return replace(trial, fraction=fraction, end=end, state=state)
 
 
-def _after(trial: Trial, maximum: np.ndarray, minimum: np.ndarray) -> Lanes:
+def _after(trial: Trial, maximum: np.ndarray, minimum: np.ndarray, integrals: np.ndarray) -> Lanes:
     before, accepted = trial.before, trial.accepted
     return Lanes(
         index=before.index,
@@ -194,6 +215,7 @@ def _after(trial: Trial, maximum: np.ndarray, minimum: np.ndarray) -> Lanes:
         rate=np.where(accepted, trial.stages[-1], before.rate),
         maximum=maximum,
         minimum=minimum,
+        integrals=integrals,
         steps=before.steps + accepted,
         rejections=before.rejections + ~accepted,
     )

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from delagrange.interpolation import evaluate, largest_value, step_polynomial
+from delagrange.interpolation import evaluate, largest_value, trial_polynomial
 from delagrange.lanes import Settings, Trial
 from delagrange.problem import Problem
 
@@ -42,7 +42,7 @@ def _widen_by_samples(
     places = np.flatnonzero(trial.accepted)
     if len(places) == 0:
         return
-    polynomial = _polynomial(problem, trial, settings, places, len(maximum))
+    polynomial = trial_polynomial(problem, trial, settings, places, len(maximum))
     quarters = _QUARTERS[:, None] * trial.fraction[places]
     values = evaluate(polynomial[:, None], quarters[:, None])
     maximum[:, places] = np.maximum(maximum[:, places], values.max(axis=0))
@@ -57,7 +57,7 @@ def _widen_by_peaks(
     places = np.flatnonzero((rising | falling).any(axis=0))
     if len(places) == 0:
         return
-    polynomial = _polynomial(problem, trial, settings, places, len(maximum))
+    polynomial = trial_polynomial(problem, trial, settings, places, len(maximum))
     fraction = np.broadcast_to(trial.fraction[places], polynomial.shape[1:])
     high, low = np.nonzero(rising[:, places]), np.nonzero(falling[:, places])
     curves = np.concatenate([polynomial[:, *high], -polynomial[:, *low]], axis=1)
@@ -84,14 +84,3 @@ def _candidates(trial: Trial, maximum: np.ndarray, minimum: np.ndarray) -> tuple
     rising = trial.accepted & (np.maximum(first, last) + rise > maximum)
     falling = trial.accepted & (np.minimum(first, last) - fall < minimum)
     return rising, falling
-
-
-def _polynomial(
-    problem: Problem, trial: Trial, settings: Settings, places: np.ndarray, count: int
-) -> np.ndarray:
-    """The coordinates over the step of the lanes at `places`, (degree + 1, n_coordinates, n_places)."""
-    some = trial.take(places)
-    before = some.before
-    return step_polynomial(
-        problem.take(places), settings.tableau, some.stages, before.time, some.step, before.state, count
-    )

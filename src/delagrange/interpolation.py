@@ -10,6 +10,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from delagrange.lanes import Settings, Trial
 from delagrange.problem import Problem
 from delagrange.step_control import combine
 from delagrange.tableau import Tableau
@@ -40,6 +41,20 @@ def step_polynomial(
         rates[place] = problem.rhs(time + node * step, state + step * combine(row, rates))
     wanted = rates[:, :count]
     return np.stack([state[:count], *(step * combine(row, wanted) for row in tableau.interpolant)])
+
+
+def trial_polynomial(
+    problem: Problem, trial: Trial, settings: Settings, places: np.ndarray, count: int | None = None
+) -> np.ndarray:
+    """The state over the trial's step of the lanes at `places`, (degree + 1, n_state, n_places).
+
+    count: how many of the state variables are wanted, from the first on; all if left out
+    """
+    some = trial.take(places)
+    before = some.before
+    return step_polynomial(
+        problem.take(places), settings.tableau, some.stages, before.time, some.step, before.state, count
+    )
 
 
 def evaluate(polynomial: np.ndarray, fraction: float | np.ndarray) -> np.ndarray:

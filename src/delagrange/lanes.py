@@ -18,9 +18,38 @@ class Settings:
     tableau: Tableau
     control: StepControl
     duration: float  # [s]
-    window: tuple[float, float]  # [s], where extrema are taken
+    window: tuple[float, float]  # [s], where extrema and averages are taken
     limits: Limits
     extrema: str  # one of delagrange.extrema.EXTREMA, or "none"
+    averages: bool = False  # mean and mean square of the coordinates over the window
+    threads: int | None = None  # for engines that use threads; None: as many as they like
+
+
+@dataclass(frozen=True)
+class Sampling:
+    """When the state of each lane is kept: sample j at first + j * spacing.
+
+    Those that lie beyond the duration are not taken.
+    """
+
+    first: np.ndarray  # (n_lanes,) [s], not negative
+    spacing: np.ndarray  # (n_lanes,) [s], positive
+    count: int  # samples a lane
+
+    def times(self) -> np.ndarray:
+        """Time of every sample [s], (count, n_lanes)."""
+        return self.first + np.arange(self.count)[:, None] * self.spacing
+
+    def taken(self, time: np.ndarray) -> np.ndarray:
+        """How many samples of each lane lie at or before `time` [s], (n_lanes,) -> (n_lanes,) of int."""
+        near = np.floor((time - self.first) / self.spacing)
+        last = near + (self.first + (near + 1) * self.spacing <= time)  # where the division rounded
+        last -= self.first + last * self.spacing > time
+        return np.clip(last + 1, 0, self.count).astype(int)
+
+    def take(self, lanes: np.ndarray | slice) -> Sampling:
+        """The sampling of some of the lanes."""
+        return Sampling(self.first[lanes], self.spacing[lanes], self.count)
 
 
 @dataclass(frozen=True)
@@ -35,6 +64,9 @@ class Lanes:
     rate: np.ndarray  # (n_state, n_lanes), of the state
     maximum: np.ndarray  # (n_coordinates, n_lanes) [1]
     minimum: np.ndarray  # (n_coordinates, n_lanes) [1]
+    integrals: (
+        np.ndarray
+    )  # (1 + 2 n_coordinates, n_lanes) [s], over the window so far; see delagrange.averages
     steps: np.ndarray  # (n_lanes,), accepted so far
     rejections: np.ndarray  # (n_lanes,)
 
@@ -43,8 +75,11 @@ class Lanes:
         return Lanes(**{entry.name: getattr(self, entry.name)[..., places] for entry in fields(self)})
 
 
-def first_lanes(state: np.ndarray, coordinates: int) -> Lanes:
-    """Lanes at t = 0 in `state`, (n_state, n_lanes), with nothing measured yet."""
+def first_lanes(state: np.ndarray, coordinates: int, averages: bool = False) -> Lanes:
+    """Lanes at t = 0 in `state`, (n_state, n_lanes), with nothing measured yet.
+
+    Without averages the integrals have no rows, so that nobody carries them along.
+    """
     lanes = state.shape[-1]
     return Lanes(
         index=np.arange(lanes),
@@ -55,6 +90,7 @@ def first_lanes(state: np.ndarray, coordinates: int) -> Lanes:
         rate=np.zeros_like(state),
         maximum=np.full((coordinates, lanes), -np.inf),
         minimum=np.full((coordinates, lanes), np.inf),
+        integrals=np.zeros((1 + 2 * coordinates if averages else 0, lanes)),
         steps=np.zeros(lanes, dtype=int),
         rejections=np.zeros(lanes, dtype=int),
     )
@@ -96,18 +132,25 @@ class Outcome:
 
     maximum: np.ndarray  # (n_coordinates, n_lanes) [1], in the window as far as the lane came into it
     minimum: np.ndarray  # (n_coordinates, n_lanes) [1]
+    mean: np.ndarray  # (n_coordinates, n_lanes) [1], over the part of the window that the lane came through
+    mean_square: np.ndarray  # (n_coordinates, n_lanes) [1], of the coordinate itself, over the same part
     state: np.ndarray  # (n_state, n_lanes), at the end or at the loss
     status: np.ndarray  # (n_lanes,), place in delagrange.loss.STATUS
     status_time: np.ndarray  # (n_lanes,) [s], when the lane ended
     steps: np.ndarray  # (n_lanes,), accepted
     rejections: np.ndarray  # (n_lanes,)
+    samples: np.ndarray  # (count, n_state, n_lanes), NaN after the loss; none (count 0) where not asked for
 
     def record_into(self, lanes: Lanes, status: int | np.ndarray) -> None:
-        """Write the lanes' present values to their places."""
+        """Write the lanes' present values to their places; samples are written as they are taken."""
         for name in ("maximum", "minimum", "state", "steps", "rejections"):
             getattr(self, name)[..., lanes.index] = getattr(lanes, name)
         self.status[lanes.index] = status
         self.status_time[lanes.index] = lanes.time
+        if len(lanes.integrals):
+            covered, sums, squares = np.split(lanes.integrals, [1, 1 + len(self.mean)])
+            self.mean[:, lanes.index] = sums / covered  # 0 / 0 for a lane that never came into the window
+            self.mean_square[:, lanes.index] = squares / covered
 
     def place_into(self, places: slice, part: Outcome) -> None:
         """Write the outcome of some of the lanes to their places."""
@@ -123,15 +166,18 @@ class Interrupted(KeyboardInterrupt):
         self.outcome = outcome
 
 
-def empty_outcome(state: np.ndarray, coordinates: int, status: int) -> Outcome:
-    """An outcome of lanes that have not run, all with `status`."""
+def empty_outcome(state: np.ndarray, coordinates: int, status: int, samples: int = 0) -> Outcome:
+    """An outcome of lanes that have not run, all with `status`, with room for `samples` of each."""
     lanes = state.shape[-1]
     return Outcome(
         maximum=np.full((coordinates, lanes), np.nan),
         minimum=np.full((coordinates, lanes), np.nan),
+        mean=np.full((coordinates, lanes), np.nan),
+        mean_square=np.full((coordinates, lanes), np.nan),
         state=np.full(state.shape, np.nan),
         status=np.full(lanes, status),
         status_time=np.zeros(lanes),
         steps=np.zeros(lanes, dtype=int),
         rejections=np.zeros(lanes, dtype=int),
+        samples=np.full((samples, *state.shape), np.nan),
     )

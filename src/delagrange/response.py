@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import asdict
 from types import ModuleType
 
 import numpy as np
@@ -9,19 +11,24 @@ import xarray as xr
 
 from delagrange.dataset import (
     AMPLITUDE_DEFINITION,
+    average_variables,
     extrema_variables,
+    final_variables,
     run_attributes,
+    sample_variables,
     status_time_variable,
     status_variable,
     variable,
 )
 from delagrange.drive import Drive
-from delagrange.grid import Grid
+from delagrange.engines import resolve_numerics
+from delagrange.initial import PREFIX
 from delagrange.lanes import Outcome
 from delagrange.loss import Limits
+from delagrange.measures import Measures
 from delagrange.models import load_model
 from delagrange.parameters import CHANGEABLE_UNITS, SHENG_2015, Parameters
-from delagrange.sweep import SWEEP_UNITS, Sweep, make_settings, make_sweep, run_sweep
+from delagrange.sweep import Sweep, make_settings, make_sweep, run_sweep
 
 
 def frequency_response(
@@ -31,66 +38,92 @@ def frequency_response(
     duration: float,
     field_amplitude: np.ndarray | float,
     field_bias: np.ndarray | float = 0.0,
+    field_phase: np.ndarray | float = 0.0,
     force: Drive | np.ndarray | float = 0.0,
     held_stretch: np.ndarray | float | None = None,
     formulation: str | None = None,
     lateral_dashpot: str | None = None,
     parameters: Parameters = SHENG_2015,
+    initial_state: Mapping[str, np.ndarray | float] | None = None,
     window: tuple[float, float] | None = None,
+    averages: bool = False,
+    final_state: bool = False,
+    section_points: int | None = None,
+    section_phase: float = 0.0,
+    sample_interval: float | None = None,
     rtol: float = 1e-9,
     atol: float = 1e-12,
     method: str = "DOP853",
-    engine: str = "numpy",
-    step_control: str = "scipy",
+    engine: str = "auto",
+    step_control: str | None = None,
     extrema: str = "dense",
+    threads: int | None = None,
     limits: Limits = Limits(),  # noqa: B008  (frozen)
     progress: bool = False,
     **material: np.ndarray | float,
 ) -> xr.Dataset:
-    """Amplitude of the motion from rest under E = bias + amplitude sin(2 pi f t), at each point of a grid.
+    """Amplitude of the motion under E = bias + amplitude sin(2 pi f t + phase), at each point of a grid.
 
     `frequency` [Hz] is a strictly increasing array. `force` [N], `field_amplitude` and `field_bias` [V/m],
-    `held_stretch` [1] and any material parameter (`relaxation_time` [s] included) may be one-dimensional
-    arrays: each gives a dimension of its name, in the order force, field_amplitude, field_bias,
-    held_stretch, material, frequency. Single values give scalar coordinates (frequency always a dimension).
+    `field_phase` [rad], `held_stretch` [1], any material parameter (`relaxation_time` [s] included) and the
+    values of `initial_state` may be one-dimensional arrays: each gives a dimension of its name, in the order
+    force, field_amplitude, field_bias, field_phase, held_stretch, material, initial_<state variable>,
+    frequency. Single values give scalar coordinates (frequency always a dimension).
 
     Args:
         duration: of each run [s].
-        window: start and end [s] of the time in which extrema are taken; the whole duration if left out.
+        initial_state: values of state variables at t = 0 by name, in the units of `model.STATE`; those left
+            out, or all, are as in the reference state, at rest.
+        window: start and end [s] of the time in which extrema and averages are taken; the whole duration if
+            left out.
+        averages: give the time average and the root mean square over the window too.
+        final_state: give the state at the end of every run, or at its loss, too.
+        section_points: give the state at so many last times within the duration at which the argument of the
+            sine, 2 pi f t + phase, is `section_phase` [rad] modulo 2 pi; as `stroboscopic_section`, exact.
+        sample_interval: give the state at 0 s and every so many seconds up to the duration; not together with
+            `section_points`.
         method: "DOP853" or "RK45".
         engine: "numpy" runs all points side by side; "scipy" one by one through `solve_ivp`, slowly, as a
-            witness.
+            witness; "auto" chooses the fastest that can do what is asked for.
             Sweeps are explicit: for relaxation times far below a period of vibration use `simulate` with
             method "auto".
-        step_control: "scipy", or "ode45" for the controller of MATLAB's `ode45` (with method "RK45").
+        step_control: "scipy", or "ode45" for the controller of MATLAB's `ode45` (with method "RK45"); left
+            out, the engine's own.
         extrema: "dense" between steps, to the tolerance; "samples" at the quarters of each step, as
             `ode45` plots them; "steps" at the ends of steps.
+        threads: how many an engine that uses threads may have; "numpy" and "scipy" use one.
         rtol, atol, limits, formulation, lateral_dashpot, parameters, progress: as in `simulate`.
 
     Returns:
         Dataset with `amplitude` [1] of the first coordinate (half of peak to peak; NaN where the solution
         was lost), `maximum` and `minimum` (up to the loss), the same for further coordinates as
-        `stretch_2_amplitude` and so on, `status` and `status_time`. Interrupted from the keyboard, it warns
-        and returns what is done; the other points have the status "interrupted".
+        `stretch_2_amplitude` and so on, `status` and `status_time`. Where asked for: `mean` and
+        `root_mean_square` (named and NaN as the amplitude); `final_<state variable>`;
+        `section_<state variable>` over the dimension `period`, with `section_time` [s]; the state variables
+        themselves over the dimension `time` [s]. Samples after a loss are NaN. Interrupted from the
+        keyboard, it warns and returns what is done; the other points have the status "interrupted".
 
     Raises:
-        ValueError: something given makes no sense; the message names it, its value, its unit and what is
-            allowed.
+        ValueError: something given makes no sense, or the result would take more than 8 GiB; the message
+            names it, its value, its unit and what is allowed.
     """
     module = load_model(model, formulation, lateral_dashpot)
-    settings = make_settings(duration, window, rtol, atol, method, engine, step_control, extrema, limits)
+    measures = Measures(averages, final_state, section_points, section_phase, sample_interval)
+    numerics = resolve_numerics(method, engine, step_control, extrema)
+    settings = make_settings(duration, window, rtol, atol, numerics, limits, averages, threads)
     values = {
         "force": force,
         "field_amplitude": field_amplitude,
         "field_bias": field_bias,
+        "field_phase": field_phase,
         "held_stretch": held_stretch,
         **material,
         "frequency": frequency,
     }
-    sweep = make_sweep(module, parameters, values, settings, engine)
+    sweep = make_sweep(module, parameters, values, settings, numerics.engine, measures, initial_state)
     outcome = run_sweep(sweep, progress)
-    numerics = {"method": method, "engine": engine, "step_control": step_control, "extrema": extrema}
-    return _dataset(sweep, outcome, numerics | {"rtol": settings.control.rtol, "atol": settings.control.atol})
+    tolerances = {"rtol": settings.control.rtol, "atol": settings.control.atol}
+    return _dataset(sweep, outcome, asdict(numerics) | tolerances)
 
 
 def _dataset(sweep: Sweep, outcome: Outcome, numerics: dict[str, object]) -> xr.Dataset:
@@ -99,29 +132,68 @@ def _dataset(sweep: Sweep, outcome: Outcome, numerics: dict[str, object]) -> xr.
     start, stop = settings.window
     measure = {"definition": AMPLITUDE_DEFINITION, "window_start": start, "window_stop": stop}
     data = extrema_variables(sweep.model, outcome, dimensions, grid.shape, measure)
+    data |= _measured_variables(sweep, outcome, measure)
     data["status"] = status_variable(dimensions, outcome.status.reshape(grid.shape))
     data["status_time"] = status_time_variable(dimensions, outcome.status_time.reshape(grid.shape))
     lengths = {"duration": settings.duration, "duration_units": "s"}
     attributes = _attributes(sweep) | lengths | measure | {"window_units": "s"} | numerics
-    return xr.Dataset(data, coords=_coordinates(grid), attrs=attributes)
+    return xr.Dataset(data, coords=_coordinates(sweep), attrs=attributes)
+
+
+def _measured_variables(sweep: Sweep, outcome: Outcome, measure: dict[str, object]) -> dict[str, tuple]:
+    """What was asked for besides the extrema."""
+    model, measures, shape = sweep.model, sweep.measures, sweep.grid.shape
+    dimensions = tuple(sweep.grid.axes)
+    data = {}
+    if measures.averages:
+        data |= average_variables(model, outcome, dimensions, shape, measure)
+    if measures.final_state:
+        data |= final_variables(model, outcome, dimensions, shape)
+    if measures.section_points is not None:
+        data |= sample_variables(model, outcome.samples, (*dimensions, "period"), shape, "section_")
+        data["section_time"] = _section_time(sweep)
+    if measures.sample_interval is not None:
+        data |= sample_variables(model, outcome.samples, (*dimensions, "time"), shape, "")
+    return data
+
+
+def _section_time(sweep: Sweep) -> tuple:
+    """When the sections are taken [s]; it depends on the field's frequency and phase alone."""
+    lengths, sampling = sweep.field_sampling()
+    times = sampling.times().T.reshape(*lengths.values(), sampling.count)
+    phase = sweep.measures.section_phase
+    definition = (
+        f"the last times in the duration at which 2 pi f t + field_phase is {phase:g} rad modulo 2 pi"
+    )
+    more = {"definition": definition, "section_phase": phase, "section_phase_units": "rad"}
+    return variable((*lengths, "period"), times, "s", "time of the section", "t", **more)
 
 
 _LONG_NAMES = {
     "force": "applied force",
     "field_amplitude": "amplitude of the nominal electric field",
     "field_bias": "bias of the nominal electric field",
+    "field_phase": "phase of the electric field at t = 0",
     "held_stretch": "stretch at which axis 2 is held",
     "frequency": "frequency of the electric field",
 }
 
 
-def _coordinates(grid: Grid) -> dict[str, tuple]:
-    def coordinate(dimensions: tuple[str, ...], name: str, values: object) -> tuple:
-        long_name = _LONG_NAMES.get(name, name.replace("_", " "))
-        return variable(dimensions, values, SWEEP_UNITS[name], long_name)
+def _coordinates(sweep: Sweep) -> dict[str, tuple]:
+    grid = sweep.grid
+    starts = {PREFIX + entry.name: f"{entry.meaning} at t = 0" for entry in sweep.model.STATE}
+    long_names = _LONG_NAMES | starts
 
-    axes = {name: coordinate((name,), name, values) for name, values in grid.axes.items()}
-    return axes | {name: coordinate((), name, value) for name, value in grid.single.items()}
+    def coordinate(dimensions: tuple[str, ...], name: str, values: object) -> tuple:
+        long_name = long_names.get(name, name.replace("_", " "))
+        return variable(dimensions, values, grid.units[name], long_name)
+
+    coordinates = {name: coordinate((name,), name, values) for name, values in grid.axes.items()}
+    coordinates |= {name: coordinate((), name, value) for name, value in grid.single.items()}
+    if sweep.measures.sample_interval is not None:
+        times = sweep.sampling(slice(0, 1)).times()[:, 0]
+        coordinates["time"] = variable("time", times, "s", "time", "t")
+    return coordinates
 
 
 def _attributes(sweep: Sweep) -> dict[str, object]:
@@ -132,7 +204,9 @@ def _attributes(sweep: Sweep) -> dict[str, object]:
     for name in sweep.grid.axes:
         common.pop(name, None)
         common.pop(f"{name}_units", None)
-    common["nominal_electric_field_drive"] = "field_bias + field_amplitude * sin(2 pi frequency t)"
+    common["nominal_electric_field_drive"] = (
+        "field_bias + field_amplitude * sin(2 pi frequency t + field_phase)"
+    )
     if sweep.force_drive is None:
         common["force_drive"] = "Constant(force)"
     return common

@@ -16,7 +16,9 @@ from delagrange.units import with_unit
 _MODEL = "Model"
 _FORCE = "Force on each loaded edge"
 _FIELD = "Nominal electric field (voltage over reference thickness)"
+_START = "State at t = 0"
 _MATERIAL = "Membrane (default: the paper's)"
+_MEASURES = "What is measured"
 _NUMERICS = "Integration"
 _OUTPUT = "Output"
 _MEANINGS = {entry.name: entry.metadata.get("meaning") for entry in fields(Parameters)} | {
@@ -174,8 +176,25 @@ FieldBiases = Annotated[
     list[str] | None,
     _values("V/m", "Bias of the sine field, in V/m", _FIELD, "--field-bias", default="0 V/m"),
 ]
+FieldPhases = Annotated[
+    list[str] | None,
+    _values("rad", "Phase of the sine field, in rad", _FIELD, "--field-phase", default="0 rad"),
+]
 Frequencies = Annotated[
     list[str], _values("Hz", "Frequency of the sine field, in Hz; increasing", _FIELD, "--frequency")
+]
+
+# Start
+Initial = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--initial",
+        metavar="NAME=VALUES",
+        help="State variable at t = 0, as stretch=1.1 or stretch_1=1:2:0.1; a stretch is a pure number, its "
+        f"rate in 1/s. {_RANGE}.",
+        rich_help_panel=_START,
+        show_default="at rest in the reference state",
+    ),
 ]
 
 # Membrane: one value, or many
@@ -219,11 +238,30 @@ Method = Annotated[
 ]
 SweepMethod = Annotated[str, _text("NAME", "DOP853 or RK45.", _NUMERICS, "--method")]
 Engine = Annotated[
-    str, _text("NAME", "numpy: all runs side by side; scipy: one by one (slow, a witness).", _NUMERICS)
+    str,
+    _text(
+        "NAME",
+        "numpy: all runs side by side; scipy: one by one (slow, a witness); auto: the fastest that can.",
+        _NUMERICS,
+    ),
+]
+Threads = Annotated[
+    int | None,
+    typer.Option(
+        metavar="COUNT",
+        help="Threads of an engine that uses them, at least 1.",
+        rich_help_panel=_NUMERICS,
+        show_default="as many as it likes",
+    ),
 ]
 StepControl = Annotated[
-    str,
-    _text("NAME", "scipy, or ode45 for the controller of MATLAB's ode45 (with --method RK45).", _NUMERICS),
+    str | None,
+    _text(
+        "NAME",
+        "scipy, or ode45 for the controller of MATLAB's ode45 (with --method RK45).",
+        _NUMERICS,
+        default="the engine's own",
+    ),
 ]
 Extrema = Annotated[
     str,
@@ -238,9 +276,47 @@ Window = Annotated[
     str | None,
     _text(
         "WINDOW",
-        "START:STOP in s, the time in which extrema are taken.",
+        "START:STOP in s, the time in which extrema and averages are taken.",
         _NUMERICS,
         default="the whole duration",
+    ),
+]
+
+# What is measured
+Averages = Annotated[
+    bool,
+    typer.Option(
+        "--averages",
+        help="Give mean and root mean square over the window as well.",
+        rich_help_panel=_MEASURES,
+    ),
+]
+FinalState = Annotated[
+    bool,
+    typer.Option(
+        "--final-state", help="Give the state at the end of every run as well.", rich_help_panel=_MEASURES
+    ),
+]
+SectionPoints = Annotated[
+    int | None,
+    typer.Option(
+        metavar="COUNT",
+        help="Give the state at so many last times at which the sine's argument is --section-phase.",
+        rich_help_panel=_MEASURES,
+        show_default="none",
+    ),
+]
+SectionPhase = Annotated[
+    float,
+    _number("rad", "Phase of the section, of 2 pi f t + phase, in rad.", _MEASURES, default="0 rad"),
+]
+SampleInterval = Annotated[
+    float | None,
+    _number(
+        "s",
+        "Give the trajectories too, the state every so many seconds; not with --section-points.",
+        _MEASURES,
+        default="none",
     ),
 ]
 

@@ -10,6 +10,7 @@ import typer
 
 from delagrange.cli import console, quantities
 from delagrange.cli import options as o
+from delagrange.cli.initial import initial_state
 from delagrange.cli.interruption import Interrupted, interruptible
 from delagrange.files import check_writable, write_dataset
 
@@ -31,6 +32,8 @@ def sweep(
     held_stretch: o.HeldStretches = None,
     force: o.Forces = None,
     field_bias: o.FieldBiases = None,
+    field_phase: o.FieldPhases = None,
+    initial: o.Initial = None,
     half_length: o.HalfLengths = None,
     half_thickness: o.HalfThicknesses = None,
     density: o.Densities = None,
@@ -39,23 +42,30 @@ def sweep(
     shear_modulus_beta: o.ShearModuliBeta = None,
     viscosity: o.Viscosities = None,
     relaxation_time: o.RelaxationTimes = None,
+    averages: o.Averages = False,
+    final_state: o.FinalState = False,
+    section_points: o.SectionPoints = None,
+    section_phase: o.SectionPhase = 0.0,
+    sample_interval: o.SampleInterval = None,
     window: o.Window = None,
     method: o.SweepMethod = "DOP853",
     rtol: o.Rtol = 1e-9,
     atol: o.Atol = 1e-12,
-    engine: o.Engine = "numpy",
-    step_control: o.StepControl = "scipy",
+    engine: o.Engine = "auto",
+    step_control: o.StepControl = None,
     extrema: o.Extrema = "dense",
+    threads: o.Threads = None,
     out: o.OutFile = None,
     quiet: o.Quiet = False,
 ) -> None:
     """Frequency response: the amplitude of forced motion over frequency and more.
 
-    Every combination of the given values is a run from rest under
-    E = bias + amplitude sin(2 pi f t). The amplitude is half of peak to peak of
-    the first stretch over the window, transient included; the peak of a curve is
-    its largest amplitude among the computed frequencies. A run that is lost has
-    no amplitude; its status says why, and no other run is touched by it.
+    Every combination of the given values is a run, from rest unless --initial
+    says otherwise, under E = bias + amplitude sin(2 pi f t + phase). The amplitude
+    is half of peak to peak of the first stretch over the window, transient
+    included; the peak of a curve is its largest amplitude among the computed
+    frequencies. A run that is lost has no amplitude; its status says why, and no
+    other run is touched by it.
 
     An option with many values makes an axis: --force 0.2 --force 0.5, or
     --force 0.2,0.5, or --frequency 300:500:1, which is START:STOP:STEP; STOP is
@@ -70,8 +80,11 @@ def sweep(
     """
     if out is not None:
         check_writable(out)
+    from delagrange.models import load_model
     from delagrange.sweep import SWEEP_UNITS
 
+    module = load_model(model, formulation, lateral_dashpot)
+    start = initial_state(initial, {entry.name: entry.unit for entry in module.STATE})
     axes = {name: quantities.axis(name, context.params[name], unit) for name, unit in SWEEP_UNITS.items()}
     with interruptible("the sweep was not finished, nothing was written"):
         from delagrange.response import frequency_response
@@ -83,6 +96,12 @@ def sweep(
                 duration=duration,
                 formulation=formulation,
                 lateral_dashpot=lateral_dashpot,
+                initial_state=start,
+                averages=averages,
+                final_state=final_state,
+                section_points=section_points,
+                section_phase=section_phase,
+                sample_interval=sample_interval,
                 window=quantities.window(window),
                 method=method,
                 rtol=rtol,
@@ -90,6 +109,7 @@ def sweep(
                 engine=engine,
                 step_control=step_control,
                 extrema=extrema,
+                threads=threads,
                 progress=not quiet,
                 **{name: values for name, values in axes.items() if values is not None},
             )
