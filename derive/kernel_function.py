@@ -37,14 +37,14 @@ def _in_volume(expression: sp.Expr, volume: sp.Expr) -> sp.Expr:
 
 def _pairs(pairs: tuple[tuple[str, sp.Expr], ...], comment: str) -> tuple[Assignment, ...]:
     return tuple(
-        Assignment(name, expression, comment if number == 0 else "")
+        Assignment(name, expression, comment if number == 0 else "", helper=True)
         for number, (name, expression) in enumerate(pairs)
     )
 
 
 def _volume_assignment(expressions: Iterable[sp.Expr], volume: sp.Expr) -> tuple[Assignment, ...]:
     used = any(_VOLUME in expression.free_symbols for expression in expressions)
-    return (Assignment("volume", named(volume), "volume of the membrane [m^3]"),) if used else ()
+    return (Assignment("volume", named(volume), "volume of the membrane [m^3]", True),) if used else ()
 
 
 def kernel_function(

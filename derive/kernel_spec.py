@@ -21,6 +21,7 @@ class Assignment:
     name: str
     expression: sp.Expr
     comment: str = ""
+    helper: bool = False  # a power or a shared part, with no meaning of its own
 
 
 @dataclass(frozen=True)

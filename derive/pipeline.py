@@ -13,8 +13,11 @@ from delagrange.derive.derived_equations import (
     derived_equations,
 )
 from delagrange.derive.emit import emit
+from delagrange.derive.emit_lanes import emit_lanes
 from delagrange.derive.euler_lagrange import EquationsOfMotion, equations_of_motion
 from delagrange.derive.kernel import kernel
+from delagrange.derive.kernel_spec import KernelSpec
+from delagrange.derive.lane_spec import lane_spec
 from delagrange.derive.load_cases import BIAXIAL, EMITTED, LoadCase
 from delagrange.derive.membrane import Membrane, membrane
 from delagrange.derive.published.sheng_2015 import SHENG_2015
@@ -62,12 +65,19 @@ def walk() -> Walked:
     """Derive all models, check them against the paper, describe and emit those that are emitted."""
     models = derive_all()
     verdicts = tuple(verify(eom, SHENG_2015) for eom in models)
-    modules = tuple(
-        (f"{eom.load_case.name}.py", emit(kernel(eom, found)))
-        for eom, found in zip(models, verdicts, strict=True)
-        if eom.load_case in EMITTED
+    described = (
+        kernel(eom, found) for eom, found in zip(models, verdicts, strict=True) if eom.load_case in EMITTED
     )
+    modules = tuple(module for spec in described for module in emitted(spec))
     return Walked(models, tuple(chain.from_iterable(verdicts)), modules)
+
+
+def emitted(spec: KernelSpec) -> tuple[tuple[str, str], ...]:
+    """File name and text of what is emitted for a model: its NumPy module and its compiled ensemble kernel."""
+    return (
+        (f"{spec.name}.py", emit(spec)),
+        (f"{spec.name}_lanes.py", emit_lanes(lane_spec(spec))),
+    )
 
 
 def check() -> tuple[Verdict, ...]:

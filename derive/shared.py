@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import sympy as sp
 
-_WORTH = 2  # operations saved
+_WORTH = 2  # operations saved, where a person reads the code
 
 
 def _uses(symbol: sp.Symbol, expressions: list[sp.Expr]) -> int:
@@ -25,7 +25,10 @@ def _unfolded(value: sp.Expr, found: list[tuple[sp.Symbol, sp.Expr]]) -> sp.Expr
 
 
 def share_subexpressions(
-    expressions: tuple[sp.Expr, ...], constants: frozenset[str], later: frozenset[str]
+    expressions: tuple[sp.Expr, ...],
+    constants: frozenset[str],
+    later: frozenset[str],
+    worth: int = _WORTH,
 ) -> tuple[tuple[tuple[str, sp.Expr], ...], tuple[sp.Expr, ...]]:
     """Named common subexpressions, and the expressions rewritten in them.
 
@@ -44,7 +47,7 @@ def share_subexpressions(
         users = [expression for _, expression in kept] + rest
         saved = value.count_ops() * (_uses(symbol, users) - 1)
         names = {free.name for free in _unfolded(value, found).free_symbols}
-        if names - constants and not names & later and saved >= _WORTH and _uses(symbol, earlier) == 0:
+        if names - constants and not names & later and saved >= worth and _uses(symbol, earlier) == 0:
             kept.append((symbol, value))
             continue
         kept = [(name, expression.subs(symbol, value)) for name, expression in kept]

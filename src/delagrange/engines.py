@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from types import ModuleType
 
 from delagrange import checks
+from delagrange.compiled import integrate_compiled
+from delagrange.drive import Drive
 from delagrange.ensemble import integrate_lanes
 from delagrange.extrema import EXTREMA
+from delagrange.kernel_drives import is_known
+from delagrange.kernels import kernel_name, load_kernel, why_not_compiled
 from delagrange.lanes import Outcome
 from delagrange.oracle import integrate_one_by_one
 from delagrange.step_control import STEP_CONTROLS
@@ -22,13 +28,15 @@ class Engine:
 
     integrate: Callable[..., Outcome]  # (problem, initial_state, settings, sampling=None, report=None)
     chunk: int  # for "numpy" long enough to spread the cost of a call, short enough for the cache
-    step_controls: tuple[str, ...] = STEP_CONTROLS  # the first is the engine's own
-    extrema: tuple[str, ...] = EXTREMA
+    methods: tuple[str, ...]
+    step_controls: tuple[str, ...]  # the first is the engine's own
+    extrema: tuple[str, ...]
 
 
 ENGINES: Mapping[str, Engine] = {
-    "numpy": Engine(integrate_lanes, 4096),
-    "scipy": Engine(integrate_one_by_one, 4096, step_controls=("scipy",), extrema=("dense",)),
+    "compiled": Engine(integrate_compiled, 1 << 16, ("DOP853",), ("pi",), ("dense",)),
+    "numpy": Engine(integrate_lanes, 4096, METHODS, ("scipy", "ode45"), EXTREMA),
+    "scipy": Engine(integrate_one_by_one, 4096, METHODS, ("scipy",), ("dense",)),
 }
 
 
@@ -42,11 +50,13 @@ class Numerics:
     extrema: str
 
 
-def resolve_numerics(method: str, engine: str, control: str | None, extrema: str) -> Numerics:
+def resolve_numerics(
+    method: str, engine: str, control: str | None, extrema: str, model: ModuleType, force: object = 0.0
+) -> Numerics:
     """The numerics, with the engine settled where "auto", and its own step control where None.
 
     Raises:
-        ValueError: an unknown name, or choices that do not go together.
+        ValueError: an unknown name, choices that do not go together, or an engine that cannot run the model.
     """
     checks.choice("method", method, METHODS)
     checks.choice("engine", engine, (AUTO, *ENGINES))
@@ -55,20 +65,67 @@ def resolve_numerics(method: str, engine: str, control: str | None, extrema: str
     checks.choice("extrema", extrema, EXTREMA)
     if control == "ode45" and method != "RK45":
         raise ValueError(f"step_control 'ode45' belongs to method 'RK45', got method {method!r}")
-    engine = resolve_engine(engine, method, control, extrema)
+    engine = resolve_engine(engine, method, control, extrema, model, force)
     able = ENGINES[engine]
     control = able.step_controls[0] if control is None else control
-    if control not in able.step_controls or extrema not in able.extrema:
+    if method not in able.methods or control not in able.step_controls or extrema not in able.extrema:
         raise ValueError(
-            f"engine {engine!r} has step_control {_quoted(able.step_controls)} and extrema "
-            f"{_quoted(able.extrema)} only, got {control!r}, {extrema!r}"
+            f"engine {engine!r} has method {_quoted(able.methods)}, step_control "
+            f"{_quoted(able.step_controls)} and extrema {_quoted(able.extrema)} only, "
+            f"got {method!r}, {control!r}, {extrema!r}"
         )
     return Numerics(method, engine, control, extrema)
 
 
-def resolve_engine(engine: str, method: str, control: str | None, extrema: str) -> str:
-    """The name of an engine: as given, or the one that "auto" stands for with these numerics."""
-    return "numpy" if engine == AUTO else engine
+def resolve_engine(
+    engine: str, method: str, control: str | None, extrema: str, model: ModuleType, force: object
+) -> str:
+    """The name of an engine: as given, or the fastest one for "auto" that can do what is asked for.
+
+    Warns where compiled code would do and cannot run on this machine.
+
+    Raises:
+        ValueError: the compiled engine is asked for by name and cannot run.
+    """
+    if engine not in (AUTO, "compiled"):
+        return engine
+    able = ENGINES["compiled"]
+    wanted = method in able.methods and control in (None, *able.step_controls) and extrema in able.extrema
+    if engine == AUTO and not wanted:
+        return "numpy"
+    obstacle = _obstacle(model, force)
+    if obstacle is None:
+        broken = _why_not_compiled(model)
+        if broken is None:
+            return "compiled"
+        if engine == AUTO:
+            warnings.warn(f"{broken}; the sweep runs on engine 'numpy', more slowly", stacklevel=4)
+            return "numpy"
+        obstacle = broken
+    if engine == AUTO:
+        return "numpy"
+    raise ValueError(f"engine 'compiled' cannot run this: {obstacle}; use 'numpy', or 'auto'")
+
+
+def _obstacle(model: ModuleType, force: object) -> str | None:
+    """What of the task itself a compiled kernel cannot do."""
+    if kernel_name(model) is None:
+        return f"no kernel stands beside the module of the model {model.MODEL}"
+    if isinstance(force, Drive) and not is_known(force):
+        return f"force is {force}, which is not made of lines and sines"
+    return None
+
+
+def _why_not_compiled(model: ModuleType) -> str | None:
+    """Why compiled code does not run on this machine."""
+    reason = why_not_compiled()
+    if reason is not None:
+        return f"compiled code cannot run here ({reason})"
+    try:
+        load_kernel(kernel_name(model))
+    except RuntimeError as error:
+        return f"compiled code cannot run here ({error})"
+    return None
 
 
 def _quoted(names: tuple[str, ...]) -> str:

@@ -83,15 +83,18 @@ def frequency_response(
         sample_interval: give the state at 0 s and every so many seconds up to the duration; not together with
             `section_points`.
         method: "DOP853" or "RK45".
-        engine: "numpy" runs all points side by side; "scipy" one by one through `solve_ivp`, slowly, as a
-            witness; "auto" chooses the fastest that can do what is asked for.
+        engine: "compiled" runs all points side by side through machine code on all cores; "numpy" runs them
+            side by side through NumPy, on one; "scipy" one by one through `solve_ivp`, slowly, as a witness;
+            "auto" chooses the fastest that can do what is asked for, and warns where that is "numpy" because
+            compiled code cannot run on this machine. The first use of a model on a machine compiles it,
+            which takes seconds.
             Sweeps are explicit: for relaxation times far below a period of vibration use `simulate` with
             method "auto".
-        step_control: "scipy", or "ode45" for the controller of MATLAB's `ode45` (with method "RK45"); left
-            out, the engine's own.
+        step_control: "scipy", or "ode45" for the controller of MATLAB's `ode45` (with method "RK45"), both of
+            engine "numpy"; "pi" of engine "compiled"; left out, the engine's own.
         extrema: "dense" between steps, to the tolerance; "samples" at the quarters of each step, as
             `ode45` plots them; "steps" at the ends of steps.
-        threads: how many an engine that uses threads may have; "numpy" and "scipy" use one.
+        threads: how many engine "compiled" may use, all cores if left out; the result does not depend on it.
         rtol, atol, limits, formulation, lateral_dashpot, parameters, progress: as in `simulate`.
 
     Returns:
@@ -109,7 +112,7 @@ def frequency_response(
     """
     module = load_model(model, formulation, lateral_dashpot)
     measures = Measures(averages, final_state, section_points, section_phase, sample_interval)
-    numerics = resolve_numerics(method, engine, step_control, extrema)
+    numerics = resolve_numerics(method, engine, step_control, extrema, module, force)
     settings = make_settings(duration, window, rtol, atol, numerics, limits, averages, threads)
     values = {
         "force": force,

@@ -143,13 +143,26 @@ class Ode45Control:
         return np.max(np.abs(values) / np.maximum(size, self.atol / self.rtol), axis=0)
 
 
-StepControl = ScipyControl | Ode45Control
-STEP_CONTROLS = ("scipy", "ode45")
+@dataclass(frozen=True)
+class PiControl:
+    """The controller that compiled kernels are emitted with; here only its tolerances.
+
+    Gustafsson (1991), ACM Trans. Math. Softw. 17, 533.
+    """
+
+    rtol: float
+    atol: float
+
+
+StepControl = ScipyControl | Ode45Control | PiControl
+STEP_CONTROLS = ("scipy", "ode45", "pi")
 
 
 def step_control(name: str, rtol: float, atol: float, duration: float) -> StepControl:
-    """The controller "scipy", or "ode45" with its largest step of a tenth of `duration` [s]."""
-    return Ode45Control(rtol, atol, 0.1 * duration) if name == "ode45" else ScipyControl(rtol, atol)
+    """The controller "scipy", "pi", or "ode45" with its largest step of a tenth of `duration` [s]."""
+    if name == "ode45":
+        return Ode45Control(rtol, atol, 0.1 * duration)
+    return {"scipy": ScipyControl, "pi": PiControl}[name](rtol, atol)
 
 
 def _square_sum(values: np.ndarray) -> np.ndarray:

@@ -1,0 +1,196 @@
+"""From the description of an ensemble kernel to the text of a module that Numba compiles.
+
+All choices are made here; the template places text. The same description gives the same text on any
+machine.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+import sympy as sp
+
+from delagrange.derive.code_lines import WIDTH, broken, unpacked
+from delagrange.derive.kernel_spec import Assignment, KernelFunction
+from delagrange.derive.lane_rows import result_rows, table_rows, total, work_rows
+from delagrange.derive.lane_spec import LaneSpec
+from delagrange.derive.printer import ExpressionPrinter
+from delagrange.derive.runge_kutta import Pair, Row, Stage, dop853, quadrature
+from delagrange.derive.sine import sine_coefficients
+from delagrange.derive.template import render
+
+_TEMPLATE = "lanes_module.py.jinja"
+_LANES = (
+    32  # four of the widest vectors: enough to hide how long an operation takes, few enough for the cache
+)
+_SINE_TERMS = 8  # right to 4e-16
+_QUADRATURE_POINTS = 8  # exact for the square of the interpolant, of degree 14
+_CONTROL = {"safety": 0.9, "growth": 0.03, "memory": 0.015}
+
+_PRINTER = ExpressionPrinter(lambda symbol: symbol.name, {sp.log: "np.log", sp.exp: "np.exp"})
+
+
+def emit_lanes(spec: LaneSpec) -> str:
+    """The text of the compiled module that `spec` describes."""
+    return render(_TEMPLATE, _view(spec, dop853()))
+
+
+def _view(spec: LaneSpec, pair: Pair) -> dict[str, Any]:
+    """Everything that the template places, ready as text."""
+    sine = sine_coefficients(_SINE_TERMS)
+    return {
+        **_names_and_sizes(spec, pair),
+        **_CONTROL,
+        "operations": spec.operations,
+        "sine_operations": _sine_operations(len(sine)),
+        "constants_body": "\n".join(_constants_lines(spec)),
+        "rates_body": "\n".join(_rates_lines(spec)),
+        "stretches_body": "\n".join(_stretches_lines(spec)),
+        "sine_body": "\n".join(_horner_lines(sine)),
+        "stages": [_stage_view(stage, dict(pair.weights), "work") for stage in pair.stages],
+        "extra_stages": [_stage_view(stage, {}, "queue") for stage in pair.extra_stages],
+        "first_weight": dict(pair.weights)[0],
+        "fifth_body": "\n".join(_sum_lines("fifth = scale * (", pair.errors[0], "work")),
+        "third_body": "\n".join(_sum_lines("third = scale * (", pair.errors[1], "work")),
+        "dense_bodies": [
+            "\n".join(_sum_lines(f"queue[DENSE_{term} + at] = step * (", row, "queue"))
+            for term, row in enumerate(pair.interpolant, start=3)
+        ],
+        "quadrature": [(repr(node), repr(weight)) for node, weight in quadrature(_QUADRATURE_POINTS)],
+    }
+
+
+def _names_and_sizes(spec: LaneSpec, pair: Pair) -> dict[str, Any]:
+    work = work_rows(spec, pair.last + 1 + len(pair.extra_stages))
+    table, results = table_rows(spec), result_rows(spec)
+    return {
+        "title": spec.model.title,
+        "name": spec.model.name,
+        "digest": spec.model.digest,
+        "sympy_version": sp.__version__,
+        "lanes": _LANES,
+        "last": pair.last,
+        "state_count": len(spec.model.state),
+        "coordinate_count": spec.model.coordinate_count,
+        "input_count": len(spec.model.inputs),
+        "constant_count": len(spec.constants) - 1,
+        "rows": work,
+        "size": total(work),
+        "table_rows": table,
+        "table_size": total(table),
+        "result_rows": results,
+        "result_size": total(results),
+    }
+
+
+def _sine_operations(terms: int) -> int:
+    """Of the sine and of what is done with it: fold 5, square 1, polynomial 2 a term, phase and line 8."""
+    return 5 + 1 + 2 * terms - 1 + 8
+
+
+def _horner_lines(coefficients: Sequence[float]) -> list[str]:
+    """`value` of the polynomial in `square`, lowest power first, by Horner's rule."""
+    *others, highest = coefficients
+    return [
+        f"    value = {highest!r}",
+        *(f"    value = {coefficient!r} + square * value" for coefficient in reversed(others)),
+    ]
+
+
+def _stage_view(stage: Stage, weights: dict[int, float], array: str) -> dict[str, Any]:
+    head = f"{array}[POINT + at] = {array}[STATE + at] + {array}[STEP + k] * ("
+    return {
+        "number": stage.number,
+        "node": repr(stage.node),
+        "weight": repr(weights[stage.number]) if stage.number in weights else "",
+        "body": "\n".join(_sum_lines(head, stage.row, array)),
+    }
+
+
+def _sum_lines(head: str, row: Row, array: str) -> list[str]:
+    """`head c * rate + ... )`, as many terms on a line as it holds."""
+    indent = " " * 12
+    terms = [f"{'- ' if c < 0 else '+ '}{abs(c)!r} * {array}[RATE_{stage} + at]" for stage, c in row]
+    terms[0] = terms[0].removeprefix("+ ").replace("- ", "-", 1)
+    lines = [f"{indent}{head}"]
+    body = [f"{indent}    {terms[0]}"]
+    for term in terms[1:]:
+        if len(body[-1]) + 1 + len(term) > WIDTH:
+            body.append(f"{indent}    {term}")
+        else:
+            body[-1] += f" {term}"
+    return [*lines, *body, f"{indent})"]
+
+
+def _constants_lines(spec: LaneSpec) -> list[str]:
+    volume, *constants = spec.constants
+    values = [a.expression for a in constants]
+    uses_volume = any(symbol.name == volume.name for value in values for symbol in value.free_symbols)
+    needed = [volume.expression, *values] if uses_volume else values
+    used = {symbol.name for value in needed for symbol in value.free_symbols}
+    names = [p.name if p.name in used else "_" for p in spec.model.parameters]
+    return [
+        *unpacked(names, "parameters"),
+        *(_assignment(volume, "    ") if uses_volume else []),
+        *(line for a in constants for line in _assignment(a, "    ")),
+        *_listed([a.name for a in constants]),
+    ]
+
+
+def _listed(names: Iterable[str]) -> list[str]:
+    return ["    return [", *(f"        {name}," for name in names), "    ]"]
+
+
+def _assignment(assignment: Assignment, indent: str) -> list[str]:
+    comment = [f"{indent}# {assignment.comment}"] if assignment.comment else []
+    return comment + broken(f"{assignment.name} = ", assignment.expression, _PRINTER, indent)
+
+
+def _loads(function: KernelFunction, spec: LaneSpec, indent: str) -> list[str]:
+    """What the function needs of state, inputs and constants, from their rows of lane k."""
+    groups = (
+        ("POINT", [entry.name for entry in spec.model.state]),
+        ("INPUT", [entry.name for entry in spec.model.inputs]),
+        ("CONSTANT", [constant.name for constant in spec.constants[1:]]),
+    )
+    return [
+        f"{indent}{name} = work[{_place(row, number)}]"
+        for row, names in groups
+        for number, name in enumerate(names)
+        if function.uses(name)
+    ]
+
+
+def _place(row: str, number: int) -> str:
+    return f"{row} + k" if number == 0 else f"{row} + {f'{number} * ' if number > 1 else ''}LANES + k"
+
+
+def _body(function: KernelFunction, spec: LaneSpec, indent: str) -> list[str]:
+    statements = (line for a in function.assignments for line in _assignment(a, indent))
+    return [*_loads(function, spec, indent), *statements]
+
+
+def _rates_lines(spec: LaneSpec) -> list[str]:
+    indent = " " * 8
+    stores = [
+        f"{indent}out[{'' if number == 0 else f'{number} * LANES + '}k] = {_PRINTER(output)}"
+        for number, output in enumerate(spec.rates.outputs)
+    ]
+    return [*_body(spec.rates, spec, indent), *stores]
+
+
+def _stretches_lines(spec: LaneSpec) -> list[str]:
+    first, second, thickness = map(_PRINTER, spec.principal_stretches.outputs)
+    in_plane = (first,) if first == second else (first, second)
+    return [
+        *_body(spec.principal_stretches, spec, "    "),
+        f"    least = {_nested('min', (*in_plane, thickness))}",
+        f"    most = {_nested('max', in_plane)}",
+        "    return least, most",
+    ]
+
+
+def _nested(function: str, values: Sequence[str]) -> str:
+    first, *others = values
+    return f"{function}({first}, {_nested(function, others)})" if others else first

@@ -1,0 +1,83 @@
+"""The compiled ensemble kernels by model: found, compiled, kept on disk."""
+
+from __future__ import annotations
+
+import os
+import warnings
+from functools import cache
+from importlib import import_module
+from importlib.util import find_spec
+from types import ModuleType
+
+import numpy as np
+
+
+def kernel_name(model: ModuleType) -> str | None:
+    """Name of the compiled kernel that stands beside the module of a model, or None where there is none."""
+    name = f"{model.__name__}_lanes"
+    try:
+        return name if find_spec(name) is not None else None
+    except (ImportError, ValueError):  # a module that is not in a package, or not from a file
+        return None
+
+
+@cache
+def why_not_compiled() -> str | None:
+    """Why compiled code cannot run on this machine, or None where it can."""
+    if os.environ.get("NUMBA_DISABLE_JIT", "0") not in ("", "0"):
+        return "NUMBA_DISABLE_JIT is set"
+    try:
+        import_module("numba")
+    except Exception as error:  # a missing package, a library that does not load, a NumPy that does not fit
+        return f"Numba cannot be imported: {error}"
+    return None
+
+
+@cache
+def load_kernel(name: str) -> ModuleType:
+    """The kernel of that name, compiled.
+
+    Warns where what was compiled cannot be kept on disk for the next process.
+
+    Raises:
+        RuntimeError: it cannot be compiled on this machine.
+    """
+    try:
+        kernel = import_module(name)
+        kept = _compile(kernel)
+    except Exception as error:
+        raise RuntimeError(f"the kernel {name} cannot be compiled here: {error}") from error
+    if not kept:
+        warnings.warn(
+            f"the compiled kernel {name} cannot be kept on disk, and every process will compile it anew; "
+            "set NUMBA_CACHE_DIR to a folder that can be written",
+            stacklevel=2,
+        )
+    return kernel
+
+
+def _compile(kernel: ModuleType) -> bool:
+    """Compile the kernel by integrating no trajectory; whether the machine code is kept on disk."""
+    try:
+        integrate_nothing(kernel)
+    except OSError:  # it was compiled, and could not be written
+        return False
+    return kernel.integrate.stats.cache_path is not None
+
+
+def integrate_nothing(kernel: ModuleType) -> None:
+    """Call the kernel with arrays of the right types and no trajectory in them."""
+    kernel.integrate(
+        0,
+        0,
+        np.zeros((kernel.TABLE_ROWS, 0)),
+        np.zeros((1, 5 * kernel.INPUT_COUNT, 1)),
+        np.zeros(kernel.INPUT_COUNT, dtype=bool),
+        np.zeros((1, 3)),
+        np.ones(5),
+        False,
+        np.zeros((kernel.RESULT_ROWS, 0)),
+        np.zeros((0, kernel.STATE_COUNT, 0)),
+        np.zeros(1),
+        np.zeros(1, dtype=np.int8),
+    )
