@@ -21,9 +21,10 @@ from delagrange.derive.sine import sine_coefficients
 from delagrange.derive.template import render
 
 _TEMPLATE = "lanes_module.py.jinja"
-_LANES = (
-    32  # four of the widest vectors: enough to hide how long an operation takes, few enough for the cache
-)
+# Lanes side by side: enough to hide how long an operation takes, and to share what a loop costs, but the
+# rates of a step, which every stage reads, must stay within the first-level cache.
+_WIDEST, _NARROWEST = 64, 16
+_RATES_IN_CACHE = 2600
 _SINE_TERMS = 8  # right to 4e-16
 _QUADRATURE_POINTS = 8  # exact for the square of the interpolant, of degree 14
 _CONTROL = {"safety": 0.9, "growth": 0.03, "memory": 0.015}
@@ -69,7 +70,7 @@ def _names_and_sizes(spec: LaneSpec, pair: Pair) -> dict[str, Any]:
         "name": spec.model.name,
         "digest": spec.model.digest,
         "sympy_version": sp.__version__,
-        "lanes": _LANES,
+        "lanes": _lanes(len(spec.model.state), pair.last + 1),
         "last": pair.last,
         "state_count": len(spec.model.state),
         "coordinate_count": spec.model.coordinate_count,
@@ -84,9 +85,17 @@ def _names_and_sizes(spec: LaneSpec, pair: Pair) -> dict[str, Any]:
     }
 
 
+def _lanes(states: int, rates: int) -> int:
+    """Lanes side by side: a power of two, so that they fill vectors of any width."""
+    lanes = _WIDEST
+    while lanes > _NARROWEST and lanes * states * rates > _RATES_IN_CACHE:
+        lanes //= 2
+    return lanes
+
+
 def _sine_operations(terms: int) -> int:
-    """Of the sine and of what is done with it: fold 5, square 1, polynomial 2 a term, phase and line 8."""
-    return 5 + 1 + 2 * terms - 1 + 8
+    """Of one input with a sine: argument 2, fold 5, square 1, polynomial 2 a term, amplitude and line 4."""
+    return 2 + 5 + 1 + (2 * terms - 1) + 4
 
 
 def _horner_lines(coefficients: Sequence[float]) -> list[str]:
@@ -174,7 +183,7 @@ def _body(function: KernelFunction, spec: LaneSpec, indent: str) -> list[str]:
 def _rates_lines(spec: LaneSpec) -> list[str]:
     indent = " " * 8
     stores = [
-        f"{indent}out[{'' if number == 0 else f'{number} * LANES + '}k] = {_PRINTER(output)}"
+        f"{indent}work[{_place('out', number)}] = {_PRINTER(output)}"
         for number, output in enumerate(spec.rates.outputs)
     ]
     return [*_body(spec.rates, spec, indent), *stores]
