@@ -5,7 +5,7 @@ OUT ?= out
 BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --constraint constraints.txt
 
-.PHONY: help reproduce test derive check-generated figures lint clean
+.PHONY: help reproduce test derive check-generated figures bench lint clean
 
 help:
 	@echo "make reproduce        derive, check, emit, integrate, draw; the table of printed and computed numbers"
@@ -13,6 +13,7 @@ help:
 	@echo "make derive           derive the equations, check the printed ones, write generated/"
 	@echo "make check-generated  regenerate aside and compare byte for byte"
 	@echo "make figures          Figs. 4-12 as PNG and PDF with their data, in $(OUT)/figures"
+	@echo "make bench            sweeps timed against other packages, in $(OUT)/bench (about ten minutes)"
 
 $(VENV)/.python:
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
@@ -33,6 +34,13 @@ reproduce: $(VENV)/.installed
 
 figures: $(VENV)/.installed
 	$(BIN)/delagrange figures --out $(OUT)/figures
+
+$(VENV)/.benched: $(VENV)/.installed
+	$(PIP) --editable '.[bench]'
+	@touch $@
+
+bench: $(VENV)/.benched
+	$(BIN)/python -m benchmarks --out $(OUT)/bench
 
 derive: $(VENV)/.installed
 	$(BIN)/python -m delagrange.derive

@@ -60,7 +60,9 @@ def _compile(kernel: ModuleType) -> bool:
     """Compile the kernel by integrating no trajectory; whether the machine code is kept on disk."""
     try:
         integrate_nothing(kernel)
-    except OSError:  # it was compiled, and could not be written
+    except OSError:  # a folder that was found, and that cannot be read or written after all
+        kernel.integrate._cache = import_module("numba.core.caching").NullCache()
+        integrate_nothing(kernel)
         return False
     return kernel.integrate.stats.cache_path is not None
 

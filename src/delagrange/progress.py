@@ -40,3 +40,15 @@ def progress_bar(shown: bool, description: str, total: float, unit: str) -> Iter
     )
     with Bar(*columns, console=Console(stderr=True)) as bar:
         yield Progress(bar, bar.add_task(description, total=total))
+
+
+@contextmanager
+def working(shown: bool, description: str) -> Iterator[None]:
+    """A line on standard error that says what is going on while the block runs, and goes with it."""
+    if not shown:
+        yield
+        return
+    from rich.console import Console
+
+    with Console(stderr=True).status(description):
+        yield

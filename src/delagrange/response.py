@@ -28,6 +28,7 @@ from delagrange.loss import Limits
 from delagrange.measures import Measures
 from delagrange.models import load_model
 from delagrange.parameters import CHANGEABLE_UNITS, SHENG_2015, Parameters
+from delagrange.progress import working
 from delagrange.sweep import Sweep, make_settings, make_sweep, run_sweep
 
 
@@ -112,7 +113,8 @@ def frequency_response(
     """
     module = load_model(model, formulation, lateral_dashpot)
     measures = Measures(averages, final_state, section_points, section_phase, sample_interval)
-    numerics = resolve_numerics(method, engine, step_control, extrema, module, force)
+    with working(progress, f"preparing {module.MODEL}; its first use on a machine takes seconds to compile"):
+        numerics = resolve_numerics(method, engine, step_control, extrema, module, force)
     settings = make_settings(duration, window, rtol, atol, numerics, limits, averages, threads)
     values = {
         "force": force,

@@ -241,7 +241,8 @@ Engine = Annotated[
     str,
     _text(
         "NAME",
-        "numpy: all runs side by side; scipy: one by one (slow, a witness); auto: the fastest that can.",
+        "compiled: all runs side by side, on all cores; numpy: the same on one, without compiling; scipy: one "
+        "by one (slow, a witness); auto: the fastest that can.",
         _NUMERICS,
     ),
 ]
@@ -249,16 +250,16 @@ Threads = Annotated[
     int | None,
     typer.Option(
         metavar="COUNT",
-        help="Threads of an engine that uses them, at least 1.",
+        help="Threads of the compiled engine, at least 1; the result does not depend on it.",
         rich_help_panel=_NUMERICS,
-        show_default="as many as it likes",
+        show_default="all cores",
     ),
 ]
 StepControl = Annotated[
     str | None,
     _text(
         "NAME",
-        "scipy, or ode45 for the controller of MATLAB's ode45 (with --method RK45).",
+        "scipy, or ode45 for the controller of MATLAB's ode45 (with --method RK45); pi: of the compiled engine.",
         _NUMERICS,
         default="the engine's own",
     ),
