@@ -21,10 +21,7 @@ from delagrange.derive.sine import sine_coefficients
 from delagrange.derive.template import render
 
 _TEMPLATE = "lanes_module.py.jinja"
-# Lanes side by side: enough to hide how long an operation takes, and to share what a loop costs, but the
-# rates of a step, which every stage reads, must stay within the first-level cache.
-_WIDEST, _NARROWEST = 64, 16
-_RATES_IN_CACHE = 2600
+_LANES = 64  # enough to hide how long an operation takes, and to share what a loop costs to set up
 _SINE_TERMS = 8  # right to 4e-16
 _QUADRATURE_POINTS = 8  # exact for the square of the interpolant, of degree 14
 _CONTROL = {"safety": 0.9, "growth": 0.03, "memory": 0.015}
@@ -70,7 +67,7 @@ def _names_and_sizes(spec: LaneSpec, pair: Pair) -> dict[str, Any]:
         "name": spec.model.name,
         "digest": spec.model.digest,
         "sympy_version": sp.__version__,
-        "lanes": _lanes(len(spec.model.state), pair.last + 1),
+        "lanes": _LANES,
         "last": pair.last,
         "state_count": len(spec.model.state),
         "coordinate_count": spec.model.coordinate_count,
@@ -83,14 +80,6 @@ def _names_and_sizes(spec: LaneSpec, pair: Pair) -> dict[str, Any]:
         "result_rows": results,
         "result_size": total(results),
     }
-
-
-def _lanes(states: int, rates: int) -> int:
-    """Lanes side by side: a power of two, so that they fill vectors of any width."""
-    lanes = _WIDEST
-    while lanes > _NARROWEST and lanes * states * rates > _RATES_IN_CACHE:
-        lanes //= 2
-    return lanes
 
 
 def _sine_operations(terms: int) -> int:

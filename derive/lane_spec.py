@@ -1,7 +1,7 @@
 """From the description of a module to that of an ensemble kernel: many trajectories side by side.
 
 The same expressions as in the module, arranged for speed: what does not move is computed once a
-trajectory, integer powers are shared, and an evaluation divides once.
+trajectory, products are shared, and an evaluation divides once.
 """
 
 from __future__ import annotations
@@ -14,10 +14,9 @@ import sympy as sp
 from delagrange.derive.kernel_spec import Assignment, KernelFunction, KernelSpec
 from delagrange.derive.lane_constants import Constants
 from delagrange.derive.operations import operations
-from delagrange.derive.powers import share_powers
+from delagrange.derive.products import share_products
 from delagrange.derive.reciprocals import (
     denominators,
-    inverse_name,
     share_division,
     without_division,
 )
@@ -58,22 +57,28 @@ def _symbols_named(name: str, function: KernelFunction) -> frozenset[sp.Symbol]:
 
 
 def _arranged(function: KernelFunction, spec: KernelSpec, constants: Constants) -> KernelFunction:
-    """The function with one division, shared powers and named constants."""
+    """The function with one division, shared products and named constants."""
     kept, outputs = _without_helpers(function)
     kept, outputs, below = _simple_denominators(kept, outputs)
     below, kept, outputs = _mapped(constants.fold, below, _used(kept, outputs), outputs)
     bases = denominators(_expressions((kept, outputs)))
     kept, outputs = _mapped(without_division, kept, outputs)
-    moving = frozenset(entry.name for entry in (*spec.state, *spec.inputs))
-    powers, (below, kept, outputs) = _share(moving, below, kept, outputs)
-    inverse = frozenset(inverse_name(base).name for base in bases)
-    inverse_powers, (kept, outputs) = _share(inverse, kept, outputs)
-    common, (kept, outputs) = _common(constants, kept, outputs)
+    common, (kept, outputs) = _common_sums(constants, kept, outputs)
+    pairs, expressions = share_products(tuple(_expressions((below, common, kept, outputs))))
+    below, common, kept, outputs = _refilled((below, common, kept, outputs), expressions)
+    given = frozenset(entry.name for entry in (*spec.state, *spec.inputs)) | _names(constants)
+    early, late = _split(pairs, given)
     division = _helpers(share_division(bases), "one division for all denominators")
-    assignments = (*powers, *below, *division, *inverse_powers, *common, *kept)
-    return KernelFunction(
-        function.name, function.summary, function.unit, function.shape, _used(assignments, outputs), outputs
+    assignments = (
+        *_helpers(early, "products"),
+        *below,
+        *division,
+        *_helpers(late, "products of what that gave"),
+        *common,
+        *kept,
     )
+    ordered = _in_order(_used(assignments, outputs), given)
+    return KernelFunction(function.name, function.summary, function.unit, function.shape, ordered, outputs)
 
 
 def _without_helpers(function: KernelFunction) -> tuple[tuple[Assignment, ...], tuple[sp.Expr, ...]]:
@@ -150,16 +155,42 @@ def _mapped(change: Callable[[sp.Expr], sp.Expr], *groups: Group) -> tuple[Group
     return _refilled(groups, [change(expression) for expression in _expressions(groups)])
 
 
-def _share(moving: frozenset[str], *groups: Group) -> tuple[tuple[Assignment, ...], tuple[Group, ...]]:
-    pairs, expressions = share_powers(tuple(_expressions(groups)), moving)
-    return _helpers(pairs, "powers"), _refilled(groups, expressions)
+def _names(constants: Constants) -> frozenset[str]:
+    return frozenset(name.name for name in constants.values.values())
 
 
-def _common(constants: Constants, *groups: Group) -> tuple[tuple[Assignment, ...], tuple[Group, ...]]:
+def _common_sums(constants: Constants, *groups: Group) -> tuple[tuple[Assignment, ...], tuple[Group, ...]]:
     later = frozenset(item.name for group in groups for item in group if isinstance(item, Assignment))
-    names = frozenset(name.name for name in constants.values.values())
-    pairs, expressions = share_subexpressions(tuple(_expressions(groups)), names, later, worth=1)
+    pairs, expressions = share_subexpressions(
+        tuple(_expressions(groups)), _names(constants), later, worth=1, sums_only=True
+    )
     return _helpers(pairs, "shared by what follows"), _refilled(groups, expressions)
+
+
+Pairs = tuple[tuple[str, sp.Expr], ...]
+
+
+def _split(pairs: Pairs, given: frozenset[str]) -> tuple[Pairs, Pairs]:
+    """The pairs that need nothing but what is given, and the others."""
+    known, early, late = set(given), [], []
+    for name, product in pairs:
+        if {symbol.name for symbol in product.free_symbols} <= known:
+            known.add(name)
+            early.append((name, product))
+        else:
+            late.append((name, product))
+    return tuple(early), tuple(late)
+
+
+def _in_order(assignments: tuple[Assignment, ...], given: frozenset[str]) -> tuple[Assignment, ...]:
+    """The assignments with each after what it needs, else in the order they have."""
+    known, waiting, ordered = set(given), list(assignments), []
+    while waiting:
+        ready = next(a for a in waiting if {symbol.name for symbol in a.expression.free_symbols} <= known)
+        waiting.remove(ready)
+        known.add(ready.name)
+        ordered.append(ready)
+    return tuple(ordered)
 
 
 def _helpers(pairs: Iterable[tuple[str, sp.Expr]], comment: str) -> tuple[Assignment, ...]:

@@ -29,6 +29,7 @@ def share_subexpressions(
     constants: frozenset[str],
     later: frozenset[str],
     worth: int = _WORTH,
+    sums_only: bool = False,
 ) -> tuple[tuple[tuple[str, sp.Expr], ...], tuple[sp.Expr, ...]]:
     """Named common subexpressions, and the expressions rewritten in them.
 
@@ -47,7 +48,13 @@ def share_subexpressions(
         users = [expression for _, expression in kept] + rest
         saved = value.count_ops() * (_uses(symbol, users) - 1)
         names = {free.name for free in _unfolded(value, found).free_symbols}
-        if names - constants and not names & later and saved >= worth and _uses(symbol, earlier) == 0:
+        if (
+            names - constants
+            and not names & later
+            and saved >= worth
+            and _uses(symbol, earlier) == 0
+            and (not sums_only or value.has(sp.Add))
+        ):
             kept.append((symbol, value))
             continue
         kept = [(name, expression.subs(symbol, value)) for name, expression in kept]

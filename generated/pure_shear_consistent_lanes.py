@@ -237,13 +237,10 @@ def _rates(work, rows):
         constant_8 = work[CONSTANT + 7 * LANES + k]
         constant_9 = work[CONSTANT + 8 * LANES + k]
         constant_10 = work[CONSTANT + 9 * LANES + k]
-        # powers
-        inelastic_stretch_pow2 = inelastic_stretch * inelastic_stretch
-        inelastic_stretch_pow3 = inelastic_stretch * inelastic_stretch_pow2
-        nominal_electric_field_pow2 = nominal_electric_field * nominal_electric_field
+        # products
         stretch_pow2 = stretch * stretch
+        inelastic_stretch_pow2 = inelastic_stretch * inelastic_stretch
         stretch_pow4 = stretch_pow2 * stretch_pow2
-        stretch_rate_pow2 = stretch_rate * stretch_rate
         # denominators, cleared of fractions
         mass_numerator = constant_1 * stretch_pow4 + constant_2
         # one division for all denominators
@@ -253,31 +250,29 @@ def _rates(work, rows):
         reciprocal_2 = reciprocal * stretch
         inverse_mass_numerator = inelastic_stretch * reciprocal_2
         inverse_inelastic_stretch = mass_numerator * reciprocal_2
-        # powers
-        inverse_inelastic_stretch_pow2 = inverse_inelastic_stretch * inverse_inelastic_stretch
+        # products of what that gave
         inverse_stretch_pow2 = inverse_stretch * inverse_stretch
         inverse_stretch_pow3 = inverse_stretch * inverse_stretch_pow2
-        inverse_stretch_pow5 = inverse_stretch_pow2 * inverse_stretch_pow3
         # generalised force of the thickness inertia, quadratic in the rates [J]
-        inertia_force = constant_3 * inverse_stretch_pow5 * stretch_rate_pow2
+        inertia_force = constant_3 * inverse_stretch_pow2 * inverse_stretch_pow3 * stretch_rate**2
         # generalised force of spring α [J]
         spring_alpha_force = constant_4 * (constant_5 * inverse_stretch_pow3 - stretch)
         # generalised force of spring β [J]
         spring_beta_force = constant_6 * (
             inelastic_stretch_pow2 * inverse_stretch_pow3
-            - inverse_inelastic_stretch_pow2 * stretch
+            - inverse_inelastic_stretch**2 * stretch
         )
         # generalised force of the applied forces [J]
         applied_force = constant_7 * force
         # generalised force of the Maxwell stress [J]
-        electric_force = constant_8 * nominal_electric_field_pow2 * stretch
+        electric_force = constant_8 * nominal_electric_field**2 * stretch
         net_force = applied_force + electric_force + inertia_force + spring_alpha_force + spring_beta_force
         # mass matrix times acceleration = net force
         stretch_acceleration = constant_9 * inverse_mass_numerator * net_force * stretch_pow4
         # flow of the dashpot [1/s]
         inelastic_stretch_rate = constant_10 * (
-            -inelastic_stretch
-            - inelastic_stretch_pow3 * inverse_stretch_pow2
+            -inelastic_stretch * inelastic_stretch_pow2 * inverse_stretch_pow2
+            - inelastic_stretch
             + 2 * inverse_inelastic_stretch * stretch_pow2
         )
         work[out + k] = stretch_rate
