@@ -1,4 +1,4 @@
-"""`python -m benchmarks [--quick] [--only PART] [--out FOLDER]`, from the root of the repository."""
+"""`python -m benchmarks [--quick] [--only PART] [--out FOLDER] [--record]`, from the root of the repository."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ import os
 import sys
 from pathlib import Path
 
+RESULTS = Path(__file__).parent / "results"
 _ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "BLIS_NUM_THREADS")
 
 
@@ -18,6 +19,11 @@ def options(arguments: list[str] | None) -> argparse.Namespace:
     parser.add_argument("--only", action="append", metavar="PART", help="one part (may be given again)")
     parser.add_argument("--engine", help="of the parts threads, ensembles and compile_time")
     parser.add_argument("--out", type=Path, default=Path("out/bench"), help="folder of the results")
+    parser.add_argument(
+        "--record", nargs="?", type=Path, const=RESULTS, metavar="FOLDER",
+        help="put report, numbers and figure into a folder that is checked in too, benchmarks/results by itself; "
+        "with --only machine, those that there are",
+    )  # fmt: skip
     return parser.parse_args(arguments)
 
 
@@ -32,7 +38,7 @@ def main(arguments: list[str] | None = None) -> int:
     from benchmarks.run import run
 
     try:
-        return run(given.out, given.only, given.quick, given.engine)
+        return run(given.out, given.only, given.quick, given.engine, given.record)
     except ValueError as error:
         print(f"error: {error}", file=sys.stderr)
         return 2

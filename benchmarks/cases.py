@@ -64,8 +64,14 @@ CASES: dict[str, Case] = {
 }
 
 
-def spread(size: int, count: int | None) -> np.ndarray:
-    """Places of `count` runs spread evenly over `size`, so over all curves and all frequencies; all for None."""
+def spread(size: int, count: int | None, group: int = 1) -> np.ndarray:
+    """Places of about `count` runs spread evenly over `size`, so over all curves and all frequencies; all for None.
+
+    group: so many neighbours stay together, as they would among all
+    """
     if count is None or count >= size:
         return np.arange(size)
-    return np.unique(np.round(np.linspace(0, size - 1, count)).astype(int))
+    groups = -(-size // group)
+    first = group * np.unique(np.round(np.linspace(0, groups - 1, count // group)).astype(int))
+    places = (first[:, None] + np.arange(group)).ravel()
+    return places[places < size]

@@ -6,13 +6,16 @@ A fresh process has no compiled code, no memory used before, and as many threads
 from __future__ import annotations
 
 import json
+import math
 import os
 import resource
 import subprocess
 import sys
 from collections.abc import Callable, Mapping
+from functools import partial
 from importlib import import_module
 from pathlib import Path
+from time import perf_counter
 
 ROOT = Path(__file__).parents[1]
 
@@ -49,26 +52,57 @@ def ensemble(engine: str, frequencies: int, amplitudes: int, duration: float, rt
     }
 
 
-def first_calls(engine: str, duration: float, rtol: float) -> dict:
-    """Times [s] of the imports, of the first small sweep and of the same once more."""
-    from benchmarks.timing import timed
+def first_sweep(engine: str, duration: float, rtol: float) -> dict:
+    """Time [s] from before the package is imported to the end of a sweep of one run."""
+    begin = perf_counter()
+    import delagrange
 
-    names = ("delagrange.response", "numba") if engine == "compiled" else ("delagrange.response",)
-    imports = timed(lambda: [import_module(name) for name in names])[0]
-    sweep = _sweep(engine, 4, 4, duration, rtol)
-    return {"imports": imports, "first": timed(sweep)[0], "second": timed(sweep)[0]}
+    threads = {"threads": 1} if engine == "compiled" else {}
+    delagrange.frequency_response(
+        "equal_biaxial", force=0.5, field_amplitude=1e6, frequency=200.0, duration=duration, engine=engine,
+        rtol=rtol, atol=1e-3 * rtol, **threads,
+    )  # fmt: skip
+    return {"time": perf_counter() - begin}
 
 
-def threaded(engine: str, threads: int, every: int, repeats: int, rtol: float) -> dict:
-    """Times [s] of the whole equal-biaxial case on so many threads."""
+def imports() -> dict:
+    """Time [s] of the imports that a sweep needs whatever its engine."""
+    begin = perf_counter()
+    for name in ("delagrange", "numpy", "xarray"):
+        import_module(name)
+    return {"time": perf_counter() - begin}
+
+
+def threaded(engine: str, counts: list[int], every: int, repeats: int, rtol: float, least: float) -> dict:
+    """Times [s] of the equal-biaxial case on so many threads, counts in turn, the case run often enough that it
+    takes `least` [s] on one thread."""
     from benchmarks.cases import CASES
     from benchmarks.peer_delagrange import amplitudes
     from benchmarks.timing import timed
 
     case = CASES["equal_biaxial"].thinned(every)
-    amplitudes(case.thinned(len(case.frequency)), rtol, engine, threads)
-    times = [timed(lambda: amplitudes(case, rtol, engine, threads))[0] for _ in range(repeats)]
-    return {"threads": threads, "runs": len(case.runs), "times": times}
+    amplitudes(case.thinned(len(case.frequency)), rtol, engine)  # compiles
+    sweeps = math.ceil(least / timed(lambda: amplitudes(case, rtol, engine))[0])
+    times: dict[int, list[float]] = {count: [] for count in counts}
+    for _ in range(repeats):
+        for count in counts:
+            run = partial(_repeat, sweeps, partial(amplitudes, case, rtol, engine, count))
+            times[count].append(timed(run)[0])
+    runs = sweeps * len(case.runs)
+    rows = [{"threads": count, "runs": runs, "times": some} for count, some in times.items()]
+    return {"sweeps": sweeps, "counts": rows}
+
+
+def _repeat(times: int, run: Callable[[], object]) -> None:
+    for _ in range(times):
+        run()
+
+
+def assembly(models: list[str]) -> dict:
+    """Arithmetic instructions of the kernels of models, by registers."""
+    from benchmarks.vector_width import of_kernels
+
+    return of_kernels(models)
 
 
 def _sweep(
@@ -103,8 +137,10 @@ def peak_memory() -> int:
 
 TASKS: Mapping[str, Callable[..., dict]] = {
     "ensemble": ensemble,
-    "first_calls": first_calls,
+    "first_sweep": first_sweep,
+    "imports": imports,
     "threaded": threaded,
+    "assembly": assembly,
 }
 
 if __name__ == "__main__":

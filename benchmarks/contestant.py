@@ -26,10 +26,11 @@ class Contestant:
     tolerances: tuple[float, ...]  # from loose to tight
     prepare: Prepare
     subset: int | None = None  # runs that are timed, the time scaled to all; None for all
-    repeats: int | None = None  # at most so many
+    group: int = 1  # neighbours that stay together in the subset
+    repeats: int | None = None  # at most so many, and one less than the others; None for as many
     accuracy_of: str | None = None  # measures no amplitude: its error is that of another at equal tolerance
-
     engine: str | None = None  # of this package
+    notes: tuple[str, ...] = ()  # what was done to it, for the report
 
     def missing(self) -> tuple[str, ...]:
         """What it needs and is not there."""

@@ -4,11 +4,17 @@ from __future__ import annotations
 
 from benchmarks.contestant import Contestant
 from benchmarks.peer_delagrange import COMPILED, NUMPY
-from benchmarks.peer_heyoka import HEYOKA, HEYOKA_ALONE, HEYOKA_EVENTS
+from benchmarks.peer_heyoka import (
+    HEYOKA,
+    HEYOKA_ALONE,
+    HEYOKA_OUTPUT,
+    HEYOKA_TUNED,
+    HEYOKA_TUNED_ALONE,
+)
 from benchmarks.peer_scipy import SCIPY
 
 CONTESTANTS: tuple[Contestant, ...] = (
-    COMPILED, NUMPY, SCIPY, HEYOKA, HEYOKA_EVENTS, HEYOKA_ALONE,
+    COMPILED, NUMPY, SCIPY, HEYOKA, HEYOKA_OUTPUT, HEYOKA_TUNED, HEYOKA_ALONE, HEYOKA_TUNED_ALONE,
 )  # fmt: skip
 
 

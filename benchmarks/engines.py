@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from delagrange import checks
 from delagrange.engines import ENGINES
+from delagrange.kernels import why_not_compiled
 
 
 def has_compiled_engine() -> bool:
-    return "compiled" in ENGINES
+    """Whether the compiled engine can run on this machine."""
+    return "compiled" in ENGINES and why_not_compiled() is None
 
 
 def chosen_engine(name: str | None) -> str:

@@ -8,13 +8,14 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from benchmarks.report import series_points
+from benchmarks.series import series_points
 from delagrange.figures.style import (
     BLACK,
     BLUE,
     GREEN,
     ORANGE,
     PURPLE,
+    SKY_BLUE,
     VERMILION,
     journal_style,
     panel_letter,
@@ -23,13 +24,15 @@ from delagrange.figures.style import (
 WIDTH = 90 / 25.4  # one column of a journal page [inch]
 _RESOLUTION = 300  # [dots per inch]
 _CASES = {"equal_biaxial": "equal-biaxial", "uniaxial": "uniaxial"}
-_STYLES = {
-    "compiled": (BLACK, "o", "-"),
-    "numpy": (VERMILION, "s", "-"),
-    "scipy": (PURPLE, "^", "-"),
-    "heyoka": (BLUE, "D", "-"),
-    "heyoka_events": (ORANGE, "P", "-"),
-    "heyoka_alone": (GREEN, "x", "--"),
+_STYLES = {  # colour, marker, line, and a label that is short enough
+    "compiled": (BLACK, "o", "-", "Delagrange, compiled"),
+    "numpy": (VERMILION, "s", "-", "Delagrange, NumPy"),
+    "scipy": (PURPLE, "^", "-", "SciPy solve_ivp, lambdify"),
+    "heyoka": (BLUE, "D", "-", "heyoka"),
+    "heyoka_output": (SKY_BLUE, "v", "-", "heyoka, continuous output"),
+    "heyoka_tuned": (GREEN, "P", "-", "heyoka, tuned by us"),
+    "heyoka_alone": (BLUE, "x", "--", "heyoka, no extrema"),
+    "heyoka_tuned_alone": (ORANGE, "+", "--", "heyoka, tuned, no extrema"),
 }
 
 
@@ -48,7 +51,7 @@ def draw(numbers: dict) -> Figure | None:
     all_axes[-1].set_xlabel("rms error of the amplitude [1]")
     handles = {line.get_label(): line for axes in all_axes for line in axes.get_lines()}
     figure.legend(
-        handles=list(handles.values()), loc="outside upper center", ncols=2, fontsize=7.0, columnspacing=1.0
+        handles=list(handles.values()), loc="outside upper center", ncols=2, fontsize=6.5, columnspacing=0.8
     )
     return figure
 
@@ -56,10 +59,10 @@ def draw(numbers: dict) -> Figure | None:
 def _draw_case(axes: Axes, contestants: dict[str, dict]) -> None:
     for name, series in contestants.items():
         points = [point for point in series_points(series) if 0 < point.rms_error < 1]
-        colour, marker, line = _STYLES[name]
+        colour, marker, line, label = _STYLES[name]
         axes.loglog(
             [point.rms_error for point in points], [point.time for point in points],
-            color=colour, marker=marker, linestyle=line, markersize=3.5, linewidth=1.0, label=series["label"],
+            color=colour, marker=marker, linestyle=line, markersize=3.5, linewidth=1.0, label=label,
         )  # fmt: skip
     axes.set_ylabel("time on one core [s]")
 

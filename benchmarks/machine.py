@@ -39,6 +39,11 @@ def vectors() -> str:
     return "AVX-512" if "avx512f" in flags else "AVX2" if "avx2" in flags else "other"
 
 
+def full_width() -> str:
+    """The registers that hold those vectors."""
+    return {"AVX-512": "zmm", "AVX2": "ymm"}.get(vectors(), "xmm")
+
+
 def _cpu_entries() -> dict[str, str]:
     """What Linux says of the first processor."""
     try:

@@ -9,20 +9,21 @@ from pathlib import Path
 
 import numpy as np
 
-from benchmarks import machine, scaling
+from benchmarks import machine, scaling, vector_width
 from benchmarks.cases import CASES, Case, spread
 from benchmarks.contestant import refusal
 from benchmarks.contestants import CONTESTANTS, available
-from benchmarks.report import equal_error_ratios
+from benchmarks.engines import has_compiled_engine
+from benchmarks.series import equal_error_ratios
 from benchmarks.timing import one_core
 from benchmarks.work_precision import measure, prepared
 from delagrange import checks
 
-REPEATS = 7
+REPEATS = 5
 QUICK_REPEATS = 2
-QUICK_EVERY = 50  # of the frequencies
 _CHECKED_RUNS = 4  # of the reference, by SciPy
 _CHECK_RTOL = 1e-13
+_NO_KERNEL = {"left_out": "Left out: the compiled engine cannot run here."}
 
 
 @dataclass(frozen=True)
@@ -47,7 +48,7 @@ def _case_part(name: str) -> Part:
         if find_spec("heyoka") is None:
             keep({"left_out": "Left out: heyoka, which gives the reference, is not installed."})
             return
-        case = CASES[name].thinned(QUICK_EVERY if plan.quick else 1)
+        case = CASES[name].thinned(scaling.QUICK_EVERY if plan.quick else 1)
         with one_core():
             _measure_case(case, plan, keep)
 
@@ -87,6 +88,23 @@ def _peak(plan: Plan, keep: Keep) -> None:
         keep(measured())
 
 
+def _kernel(plan: Plan, keep: Keep) -> None:
+    if not has_compiled_engine():
+        keep(_NO_KERNEL)
+        return
+    from benchmarks.kernel_rate import measured
+
+    with one_core():
+        measured(scaling.QUICK_EVERY if plan.quick else 1, QUICK_REPEATS if plan.quick else REPEATS, keep)
+
+
+def _vectors(plan: Plan, keep: Keep) -> None:
+    if not has_compiled_engine():
+        keep(_NO_KERNEL)
+        return
+    keep(vector_width.measured())
+
+
 def _threads(plan: Plan, keep: Keep) -> None:
     scaling.threads(plan.engine, plan.quick, keep)
 
@@ -103,6 +121,8 @@ PARTS: Mapping[str, Part] = {
     "machine": _machine,
     **{name: _case_part(name) for name in CASES},
     "peak": _peak,
+    "kernel": _kernel,
+    "vectors": _vectors,
     "threads": _threads,
     "ensembles": _ensembles,
     "compile_time": _compile_time,

@@ -10,7 +10,8 @@ from benchmarks.contestant import Contestant, Run
 from delagrange.reproduction.cases import Panel
 
 ABSOLUTE_SHARE = 1e-3  # atol over rtol, as in the defaults of `frequency_response`
-_TOLERANCES = (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11)
+_TOLERANCES = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10)
+_NUMPY_TOLERANCES = (1e-5, 1e-7)  # about an error of 1e-6, since it is slow
 
 
 def threads_option(engine: str, threads: int = 1) -> dict[str, int]:
@@ -48,5 +49,5 @@ COMPILED = Contestant(
 )  # fmt: skip
 NUMPY = Contestant(
     "numpy", "Delagrange, NumPy", "frequency_response, engine 'numpy', DOP853, dense extrema",
-    (), _TOLERANCES[::2], _prepare("numpy"), repeats=3, engine="numpy",
+    (), _NUMPY_TOLERANCES, _prepare("numpy"), repeats=2, engine="numpy",
 )  # fmt: skip

@@ -46,8 +46,8 @@ def digest(case: Case) -> str:
 
     runs = case.runs
     content = [
-        METHOD, heyoka.__version__, TOLERANCE, hs.TIME_UNIT, case.model, case.duration,
-        [[str(symbol), str(slope)] for symbol, slope in hs.system(case.model)],
+        METHOD, heyoka.__version__, TOLERANCE, hs.TUNED.time_unit, case.model, case.duration,
+        [[str(symbol), str(slope)] for symbol, slope in hs.system(case.model, hs.TUNED)],
         [values.tolist() for values in (runs.force, runs.field_amplitude, runs.frequency)],
     ]  # fmt: skip
     return hashlib.sha256(json.dumps(content).encode()).hexdigest()[:16]
@@ -56,12 +56,12 @@ def digest(case: Case) -> str:
 def compute(case: Case, places: np.ndarray) -> np.ndarray:
     """Amplitudes [1] of some of the runs, (n_places,)."""
     runs = case.runs.take(places)
-    one, rest = hs.integrator(case.model, TOLERANCE), hs.initial_state(case.model)
+    one, rest = hs.integrator(case.model, hs.TUNED, TOLERANCE), hs.initial_state(case.model, hs.TUNED)
     rate = delagrange.load_model(case.model).COORDINATE_COUNT
     found = []
     for parameters in hs.batches(runs):
         hs.start(one, rest, parameters)
-        output = one.propagate_for(hs.scaled_duration(case), c_output=True)[0]
+        output = one.propagate_for(hs.written_duration(case, hs.TUNED), c_output=True)[0]
         found += [_amplitude(output, rate, lane) for lane in range(hs.BATCH)]
     return np.array(found)[: len(runs)]
 

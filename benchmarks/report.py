@@ -3,57 +3,50 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
 
-import numpy as np
-
-from benchmarks.accuracy import EQUAL_ERRORS, Point, ratio, time_at
+from benchmarks import report_parts as sections
+from benchmarks.accuracy import EQUAL_ERRORS, ratio, time_at
+from benchmarks.heyoka_system import TRIED
+from benchmarks.markdown import bullets, table
+from benchmarks.series import base_of, series_points
+from benchmarks.targets import targets_section
 
 CASE_TITLES = {
     "equal_biaxial": "Equal-biaxial: six curves of Fig. 4",
     "uniaxial": "Uniaxial: six curves of Fig. 7",
 }
-_BASES = ("compiled", "numpy")  # the first one that was measured is what ratios are to
-
-
-def series_points(series: dict) -> list[Point]:
-    """The finished points of a contestant."""
-    return [
-        Point(float(key), *(_known(point[name]) for name in _ERRORS), tuple(point["times"]))
-        for key, point in series["points"].items()
-        if "rms_error" in point and point["times"]
-    ]
-
-
-_ERRORS = ("rms_error", "maximum_error")
-
-
-def _known(error: float | None) -> float:
-    """JSON has no infinity: an error of lost runs is null there."""
-    return math.inf if error is None else error
+_PARTS = {
+    "kernel": sections.kernel,
+    "vectors": sections.vectors,
+    "peak": sections.peak,
+    "threads": sections.threads,
+    "ensembles": sections.ensembles,
+    "compile_time": sections.compile_time,
+}
 
 
 def report(numbers: dict) -> str:
     """The whole text, of the parts that there are."""
-    parts = [_introduction(), _machine(numbers.get("machine"))]
+    parts = [_introduction(numbers), targets_section(numbers), _machine(numbers.get("machine"))]
     parts += [_case(title, numbers[name]) for name, title in CASE_TITLES.items() if name in numbers]
-    sections = (
-        ("peak", _peak),
-        ("threads", _threads),
-        ("ensembles", _ensembles),
-        ("compile_time", _compile_time),
-    )
-    parts += [section(numbers[name]) for name, section in sections if name in numbers]
+    parts.append(_notes(numbers))
+    parts += [section(numbers[name]) for name, section in _PARTS.items() if name in numbers]
     return "\n\n".join(part for part in parts if part) + "\n"
 
 
-def _introduction() -> str:
+def _introduction(numbers: dict) -> str:
+    quick = [name for name, part in numbers.items() if part.get("quick")]
+    warning = (
+        f"\n\n**Quick, few runs and repeats, only to see that it works: {', '.join(quick)}.**"
+        if quick
+        else ""
+    )
     return (
         "# Benchmark of sweeps\n\n"
         "Half of peak to peak of the stretch, from rest, of the membrane of Sheng et al. (2015), under a "
         "step of force and a sinusoidal field. Time: median of repeats on one core, "
         "contestants and tolerances interleaved; compiling is not counted. Error: of the amplitude, against heyoka "
-        "at tolerance 1e-16. Made by `python -m benchmarks`."
+        f"at tolerance 1e-16. Made by `python -m benchmarks`.{warning}"
     )
 
 
@@ -89,7 +82,7 @@ def _runs(numbers: dict) -> str:
 
 def _equal_error_table(contestants: dict[str, dict]) -> str:
     """Time at equal error, and in brackets how many times that of the base."""
-    base = next((name for name in _BASES if name in contestants), None)
+    base = base_of(contestants)
     heads = ("", *(f"{error:.0e}".replace("e-0", "e-") for error in EQUAL_ERRORS))
     rows = [
         (series["label"], *_at_equal_errors(series, contestants.get(base))) for series in contestants.values()
@@ -117,33 +110,33 @@ def _with_ratio(time: float | str, base: dict | None, error: float) -> str:
     return f"{time:.3g} s" if isinstance(times_base, str) else f"{time:.3g} s ({times_base:.3g}x)"
 
 
-def equal_error_ratios(contestants: dict[str, dict]) -> dict[str, dict[str, float | str]]:
-    """For the JSON: times at equal error over that of the base, by contestant and error."""
-    base = next((name for name in _BASES if name in contestants), None)
-    if base is None:
-        return {}
-    base_times = {error: time_at(series_points(contestants[base]), error) for error in EQUAL_ERRORS}
-    return {
-        name: {
-            f"{error:g}": ratio(time_at(series_points(series), error), base_times[error])
-            for error in EQUAL_ERRORS
-        }
-        for name, series in contestants.items()
-    }
-
-
 def _methods(numbers: dict) -> str:
-    lines = []
-    for series in numbers["contestants"].values():
-        line = f"- {series['label']}: {series['method']}"
-        if series["timed_runs"] < numbers["runs"]:
-            line += f"; {series['timed_runs']} runs spread over all were timed, the time scaled to {numbers['runs']}"
-        if series["accuracy_of"]:
-            lender = numbers["contestants"].get(series["accuracy_of"], {}).get("label", series["accuracy_of"])
-            line += f"; as its error stands that of {lender!r} at equal tolerance"
-        lines.append(line)
-    lines += [f"- {line}" for line in numbers.get("refusals", [])]
-    return "\n".join(lines)
+    lines = [_method(series, numbers) for series in numbers["contestants"].values()]
+    return bullets([*lines, *numbers.get("refusals", [])])
+
+
+def _notes(numbers: dict) -> str:
+    """What was done to contestants, once for all cases."""
+    noted = {
+        series["label"]: series["notes"]
+        for name in CASE_TITLES
+        for series in numbers.get(name, {}).get("contestants", {}).values()
+        if series.get("notes")
+    }
+    blocks = [f"## What was done to {label}\n\n{bullets(notes)}" for label, notes in noted.items()]
+    return "\n\n".join([*blocks, f"Tried besides: {TRIED}."]) if noted else ""
+
+
+def _method(series: dict, numbers: dict) -> str:
+    line = f"{series['label']}: {series['method']}"
+    if series["timed_runs"] < numbers["runs"]:
+        line += (
+            f"; {series['timed_runs']} runs spread over all were timed, the time scaled to {numbers['runs']}"
+        )
+    if series["accuracy_of"]:
+        lender = numbers["contestants"].get(series["accuracy_of"], {}).get("label", series["accuracy_of"])
+        line += f"; as its error stands that of {lender!r} at equal tolerance"
+    return line
 
 
 def _cross_check(check: dict) -> str:
@@ -177,72 +170,3 @@ def _points_table(contestants: dict[str, dict]) -> str:
 
 def _error(error: float) -> str:
     return f"{error:.1e}" if math.isfinite(error) else "runs lost"
-
-
-# --- the other parts -------------------------------------------------------------------------------
-
-
-def _peak(numbers: dict) -> str:
-    title = "## Peak of fused multiply-adds, one core, double precision\n\n"
-    if "left_out" in numbers:
-        return title + numbers["left_out"]
-    rows = [(one["doubles"], one["registers"], f"{one['rate']:.1f}") for one in numbers["widths"]]
-    loop = " and ".join(f"{count} on {name}" for name, count in numbers["plain_loop"].items()) or "none"
-    text = table(("doubles a vector", "registers", "10^9 operations/s"), rows)
-    return (
-        f"{title}{text}\n\nA multiply-add counts as two operations. An ordinary loop over arrays, compiled as "
-        f"Numba does by itself here, has these packed multiply-adds: {loop}."
-    )
-
-
-def _threads(numbers: dict) -> str:
-    title = f"## Threads (engine {numbers['engine']}, rtol {numbers['rtol']:g})\n\n"
-    single = float(np.median(numbers["counts"][0]["times"]))
-    rows = []
-    for one in numbers["counts"]:
-        time = float(np.median(one["times"]))
-        rows.append((one["threads"], one["runs"], f"{time:.3g}", f"{single / time:.2f}"))
-    text = title + table(("threads", "runs", "time [s]", "speed-up"), rows)
-    return text if numbers["engine"] == "compiled" else text + "\n\nThis engine has no threads."
-
-
-def _ensembles(numbers: dict) -> str:
-    title = f"## Large ensembles (engine {numbers['engine']}, rtol {numbers['rtol']:g}, one thread)\n\n"
-    rows = [
-        (
-            f"{one['trajectories']:,}".replace(",", " "), f"{one['time']:.3g}",
-            f"{one['time'] / one['trajectories'] * 1e6:.3g}", _mebibyte(one["result"]),
-            _mebibyte(max(one["peak"] - one["before"] - one["result"], 0)), _mebibyte(one["peak"]),
-        )
-        for one in numbers["sizes"]
-    ]  # fmt: skip
-    heads = (
-        "trajectories", "time [s]", "a trajectory [µs]", "result [MiB]", "memory beyond it [MiB]",
-        "whole process [MiB]",
-    )  # fmt: skip
-    return (
-        f"{title}{table(heads, rows)}\n\nEqual-biaxial, frequencies times field amplitudes, {numbers['duration']:g} s "
-        "each, every size in a fresh process. Memory beyond the result: the peak, less what the process had after "
-        "a sweep of 16 runs, less the result."
-    )
-
-
-def _mebibyte(size: int) -> str:
-    return f"{size / 2**20:.3g}"
-
-
-def _compile_time(numbers: dict) -> str:
-    rows = [
-        (f"{state} cache", *(f"{numbers[name][key]:.3g}" for key in ("imports", "first", "second")))
-        for name, state in (("cold", "empty"), ("cached", "full"))
-        if name in numbers
-    ]
-    heads = ("", "imports [s]", "first sweep of 16 runs [s]", "second [s]")
-    title = f"## Compile time (engine {numbers['engine']})\n\n"
-    return f"{title}{table(heads, rows)}\n\nEach row in a fresh process; cache: of compiled code."
-
-
-def table(heads: Sequence[object], rows: Iterable[Sequence[object]]) -> str:
-    """A Markdown table."""
-    lines = [heads, ["---"] * len(heads), *rows]
-    return "\n".join("| " + " | ".join(str(entry) for entry in line) + " |" for line in lines)

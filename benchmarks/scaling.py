@@ -10,6 +10,7 @@ from benchmarks.child import in_child
 from benchmarks.timing import core_count
 
 RTOL = 1e-6
+QUICK_EVERY = 50  # of the frequencies
 SHORT = 0.01  # duration of the runs of the large ensembles [s]
 GRIDS = ((50, 20), (100, 100), (500, 200), (1000, 1000))  # frequencies x amplitudes: 10^3 to 10^6
 
@@ -31,17 +32,16 @@ def threads(engine: str, quick: bool, keep: Callable[[dict], None]) -> dict[str,
     The NumPy engine has no threads: it is measured on one.
     """
     counts = thread_counts(core_count()) if engine == "compiled" else [1]
-    found = {"engine": engine, "rtol": RTOL, "counts": []}
-    for count in counts:
-        print(f"{count} threads", file=sys.stderr)
-        options = {
-            "engine": engine,
-            "threads": count,
-            "every": 50 if quick else 1,
-            "repeats": 3 if quick else 7,
-        }
-        found["counts"].append(in_child("threaded", options | {"rtol": RTOL}))
-        keep(found)
+    print(f"threads {counts}", file=sys.stderr)
+    options = {
+        "engine": engine,
+        "counts": counts,
+        "every": QUICK_EVERY if quick else 1,
+        "repeats": 3 if quick else 7,
+        "least": 0.2 if quick else 1.2,
+    }
+    found = {"engine": engine, "rtol": RTOL} | in_child("threaded", options | {"rtol": RTOL})
+    keep(found)
     return found
 
 
@@ -54,12 +54,16 @@ def thread_counts(cores: int) -> list[int]:
 
 
 def compile_time(engine: str, quick: bool, keep: Callable[[dict], None]) -> dict[str, object]:
-    """Times [s] of first calls with an empty cache of compiled code and with a full one, in fresh processes."""
-    found = {"engine": engine}
+    """Times [s] of first sweeps with an empty cache of compiled code and with a full one, and of the imports."""
+    found = {"engine": engine, "imports": [], "cold": [], "cached": []}
     options = {"engine": engine, "duration": SHORT, "rtol": RTOL}
-    with tempfile.TemporaryDirectory() as folder:
-        for name in ("cold", "cached"):
-            print(f"first calls, {name}", file=sys.stderr)
-            found[name] = in_child("first_calls", options, {"NUMBA_CACHE_DIR": folder})
-            keep(found)
+    for _ in range(1 if quick else 3):
+        with tempfile.TemporaryDirectory() as folder:
+            print("first sweep, cold", file=sys.stderr)
+            cache = {"NUMBA_CACHE_DIR": folder}
+            found["cold"].append(in_child("first_sweep", options, cache)["time"])
+            for _ in range(2 if quick else 3):
+                found["imports"].append(in_child("imports", {}, cache)["time"])
+                found["cached"].append(in_child("first_sweep", options, cache)["time"])
+        keep(found)
     return found

@@ -35,12 +35,11 @@ class Store:
 
     def keep(self, part: str) -> Callable[[dict], None]:
         """A function that puts the numbers of a part in the place of its old ones."""
+        return lambda numbers: self.keep_all(self.load() | {part: numbers})
 
-        def write(numbers: dict) -> None:
-            everything = self.load() | {part: numbers}
-            self.folder.mkdir(parents=True, exist_ok=True)
-            unfinished = self.path.with_suffix(".unfinished")
-            unfinished.write_text(json.dumps(everything, indent=1) + "\n", encoding="utf-8")
-            unfinished.replace(self.path)
-
-        return write
+    def keep_all(self, everything: dict) -> None:
+        """Put all parts in the place of the old ones."""
+        self.folder.mkdir(parents=True, exist_ok=True)
+        unfinished = self.path.with_suffix(".unfinished")
+        unfinished.write_text(json.dumps(everything, indent=1) + "\n", encoding="utf-8")
+        unfinished.replace(self.path)

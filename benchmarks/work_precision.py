@@ -26,12 +26,12 @@ class Entry:
 
 
 def prepared(case: Case, contestants: Sequence[Contestant], repeats: int, every: int = 1) -> list[Entry]:
-    """All contestants at every n-th of their tolerances."""
+    """All contestants at every n-th of their tolerances; `repeats`, at least 2, are those of the fast ones."""
     entries = []
     for contestant in contestants:
         print(f"{case.name}: preparing {contestant.label}", file=sys.stderr)
-        places = spread(len(case.runs), contestant.subset)
-        count = min(repeats, contestant.repeats or repeats)
+        places = spread(len(case.runs), contestant.subset, contestant.group)
+        count = repeats if contestant.repeats is None else min(repeats - 1, contestant.repeats)
         for tolerance in contestant.tolerances[::every]:
             task = Timed(contestant.prepare(case, places, tolerance), count)
             entries.append(Entry(contestant, tolerance, places, task))
@@ -76,6 +76,7 @@ def _empty(case: Case, entries: Sequence[Entry]) -> dict[str, dict]:
     for entry in entries:
         one = entry.contestant
         about = {"label": one.label, "method": one.method, "timed_runs": len(entry.places), "points": {}}
+        about["notes"] = list(one.notes)
         series = found.setdefault(one.name, about | {"accuracy_of": one.accuracy_of})
         series["points"][_key(entry.tolerance)] = {"times": []}
     return found

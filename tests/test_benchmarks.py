@@ -9,9 +9,11 @@ import re
 import sys
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from scipy.integrate import DOP853
 
 sys.path.insert(0, str(Path(__file__).parents[1]))  # the benchmark is no installed package
 
@@ -21,18 +23,23 @@ from benchmarks.cases import CASES, Case, spread
 from benchmarks.child import in_child
 from benchmarks.contestant import refusal
 from benchmarks.contestants import CONTESTANTS, available
-from benchmarks.engines import chosen_engine
+from benchmarks.engines import chosen_engine, has_compiled_engine
 from benchmarks.figure import save_figure
 from benchmarks.machine import facts
+from benchmarks.operation_count import error_operations, operations_per_evaluation, stage_operations
 from benchmarks.parts import PARTS, checked_parts
 from benchmarks.peer_delagrange import NUMPY
-from benchmarks.report import equal_error_ratios, report, series_points
+from benchmarks.report import report
 from benchmarks.run import run
 from benchmarks.scaling import thread_counts
+from benchmarks.series import equal_error_ratios, series_points
 from benchmarks.store import Store
+from benchmarks.targets import NOT_MEASURED, TARGETS, Target, targets_section
 from benchmarks.timing import Timed, interleaved
+from benchmarks.vector_width import NOT_FULL, arithmetic, failures, summary
 from benchmarks.work_precision import measure, prepared
 from delagrange.reproduction.cases import Load, Panel
+from delagrange.tableau import tableau
 
 THREE_RUNS = Case(
     "three", "equal_biaxial", (Panel("a", "force", (Load(0.5, 5e6),)),), np.array([185.0, 371.0, 742.0]), 0.02
@@ -106,6 +113,46 @@ def test_six_curves_and_a_subset_over_all_of_them():
     assert some.frequency.min() < 200 and some.frequency.max() > 700
 
 
+def test_a_subset_of_whole_batches():
+    places = spread(20, 8, group=4)
+    np.testing.assert_array_equal(places, [0, 1, 2, 3, 16, 17, 18, 19])
+    np.testing.assert_array_equal(spread(18, 8, group=4), [0, 1, 2, 3, 16, 17])
+    np.testing.assert_array_equal(spread(5, 8, group=4), np.arange(5))
+
+
+def test_operations_of_a_step():
+    pair = tableau("DOP853")
+    a, b = np.count_nonzero(DOP853.A), np.count_nonzero(DOP853.B)
+    assert stage_operations(pair) == 2 * (a + b)
+    terms = np.count_nonzero(DOP853.E5) + np.count_nonzero(DOP853.E3)
+    assert error_operations(pair, 3) == 3 * (2 * terms + 2 * 2 + 3) + 8
+    kernel = SimpleNamespace(STATE_COUNT=3, OPERATIONS_PER_EVALUATION=73)
+    parts = operations_per_evaluation(kernel)
+    total = parts["rates_and_sine"] + parts["stage_sums"] + parts["error_estimate"]
+    assert parts["total"] == total == pytest.approx(73 + (3 * 2 * (a + b) + error_operations(pair, 3)) / 12)
+
+
+def test_arithmetic_in_an_assembly():
+    lines = (
+        "vfmadd213pd\t%zmm1, %zmm2, %zmm3", "vfnmsub231pd\t(%rax){1to8}, %zmm2, %zmm3", "vdivpd\t%ymm1, %ymm2, %ymm3",
+        "addpd\t%xmm1, %xmm2", "vfmadd213sd\t%xmm1, %xmm2, %xmm3", "vmulsd\t8(%rax), %xmm2, %xmm3",
+        "vmovupd\t%zmm1, (%rax)", "vaddps\t%zmm1, %zmm2, %zmm3",
+    )  # fmt: skip
+    counts = arithmetic("\n".join(f"\t{line}" for line in lines))
+    assert counts == {"zmm": 2, "ymm": 1, "xmm": 1, "scalar": 2}
+    found = summary(counts, "zmm")
+    assert (found["width"], found["full"]) == ("zmm", True) and found["share"] == pytest.approx(2 / 6)
+
+
+def test_a_kernel_that_is_not_vectorised_is_told():
+    narrow = {"zmm": 1, "ymm": 9, "xmm": 0, "scalar": 3}
+    numbers = {"machine_width": "zmm", "models": {"some": summary(narrow, "zmm")}}
+    assert failures(numbers) == [f"{NOT_FULL}: some, ymm where the machine has zmm"]
+    assert summary(narrow, "ymm")["full"]
+    assert not summary(dict.fromkeys(narrow, 0), "xmm")["full"]
+    assert f"- **{NOT_FULL}: some" in report({"vectors": numbers})
+
+
 def test_thread_counts():
     assert [thread_counts(cores) for cores in (1, 2, 6, 8)] == [[1], [1, 2], [1, 2, 4, 6], [1, 2, 4, 8]]
 
@@ -177,6 +224,19 @@ def test_multiply_add_chains():
     assert fused_instructions(text) == {"ymm": 1, "zmm": 1}
 
 
+def test_rate_of_the_kernel():
+    if not has_compiled_engine():
+        pytest.skip("the compiled engine cannot run here")
+    from benchmarks.kernel_rate import measured
+
+    found = measured(every=700, repeats=1, keep=lambda numbers: None)
+    for one in found["cases"].values():
+        assert one["runs"] == 12 and one["evaluations"] % 12 == 0 and one["evaluations"] > 12 * 12 * 100
+        assert one["nanoseconds"] * one["evaluations"] == pytest.approx(1e9 * one["times"][0])
+        assert 0 < one["share_of_peak"] < 1
+    assert "Peak, measured in between" in report({"kernel": found})
+
+
 def test_a_child_measures_a_sweep():
     sizes = {"frequencies": 5, "amplitudes": 4, "duration": 1e-3, "rtol": 1e-6}
     found = in_child("ensemble", {"engine": "numpy", **sizes})
@@ -186,12 +246,13 @@ def test_a_child_measures_a_sweep():
 
 def test_a_child_that_fails_says_why():
     with pytest.raises(RuntimeError, match="engine must be one of"):
-        in_child("threaded", {"engine": "no_such", "threads": 1, "every": 700, "repeats": 1, "rtol": 1e-3})
+        in_child("first_sweep", {"engine": "no_such", "duration": 1e-3, "rtol": 1e-3})
 
 
 def test_work_and_precision_of_three_runs(by_numpy):
-    alone = replace(NUMPY, name="alone", accuracy_of="numpy", tolerances=(1e-3, 1e-6))
-    entries = prepared(THREE_RUNS, [replace(NUMPY, tolerances=(1e-3, 1e-6)), alone], repeats=2)
+    both = {"tolerances": (1e-3, 1e-6), "repeats": None}
+    alone = replace(NUMPY, name="alone", accuracy_of="numpy", **both)
+    entries = prepared(THREE_RUNS, [replace(NUMPY, **both), alone], repeats=2)
     kept = []
     found = measure(THREE_RUNS, entries, by_numpy, lambda numbers: kept.append(len(numbers["contestants"])))
     points = found["contestants"]["numpy"]["points"]
@@ -222,7 +283,7 @@ def _numbers() -> dict:
     del contestants["scipy"]["points"]["1e-09"]
     grid = {"first_frequency": 100.0, "last_frequency": 800.0, "frequencies": 701, "duration": 0.1}
     case = {"runs": 4206, **grid, "contestants": contestants, "refusals": ["third: left out"]}
-    threads = {"engine": "compiled", "rtol": 1e-6, "counts": [
+    threads = {"engine": "compiled", "rtol": 1e-6, "sweeps": 5, "counts": [
         {"threads": 1, "runs": 4206, "times": [2.0, 2.0]}, {"threads": 2, "runs": 4206, "times": [1.0, 1.0]},
     ]}  # fmt: skip
     return {"equal_biaxial": case, "threads": threads, "peak": {"left_out": "Left out: numba not installed."}}
@@ -236,6 +297,35 @@ def test_report_of_given_numbers():
     assert "| ours | 1e-09 | 1.0e-09 | 1.0e-08 | 2.25 |" in text
     assert "| 2 | 4206 | 1 | 2.00 |" in text
     assert "- third: left out" in text and "Left out: numba not installed." in text
+
+
+def test_targets_beside_what_was_measured():
+    rows = {target.what: target.row(_numbers()) for target in TARGETS}
+    assert rows["speed-up on two cores"][1:] == ("1.8 x", "1.95 x", "2 x", "aim met")
+    assert rows["equal-biaxial against solve_ivp and lambdify, error 1e-06"][3:] == ("20 x", "not met")
+    assert rows["equal-biaxial against heyoka.py, batch 8, error 1e-06"][3:] == (NOT_MEASURED, NOT_MEASURED)
+    assert len(targets_section({}).splitlines()) == len(TARGETS) + 4
+    quick = targets_section({"threads": _numbers()["threads"] | {"quick": True}})
+    assert quick.count("not judged: quick") == len(TARGETS)
+
+
+def test_verdicts():
+    more = Target("", "x", 10, 20, lambda numbers: 0.0)
+    assert [more.verdict(value) for value in (9.9, 10, 20)] == ["not met", "met", "aim met"]
+    less = Target("", "s", 12, 3, lambda numbers: 0.0, smaller=True)
+    assert [less.verdict(value) for value in (12.1, 12, 3)] == ["not met", "met", "aim met"]
+    assert more.verdict(NOT_REACHED) == NOT_MEASURED
+
+
+def test_a_record_is_of_a_full_run(tmp_path, monkeypatch):
+    monkeypatch.setitem(PARTS, "peak", lambda plan, keep: keep({"left_out": "none"}))
+    with pytest.raises(ValueError, match=r"--record is for a full run"):
+        run(tmp_path, ["peak"], True, "numpy", tmp_path / "results")
+    assert run(tmp_path, ["peak"], True, "numpy") == 0
+    with pytest.raises(ValueError, match=r"quick parts \(peak\)"):
+        run(tmp_path, ["machine"], False, "numpy", tmp_path / "results")
+    assert run(tmp_path, ["peak"], False, "numpy", tmp_path / "results") == 0
+    assert {path.name for path in (tmp_path / "results").iterdir()} == {"benchmark.json", "benchmark.md"}
 
 
 def test_ratios_for_the_raw_numbers():
