@@ -136,7 +136,7 @@ SMALLEST_FACTOR, LARGEST_FACTOR = 0.2, 6.0  # of a step to the next
 FIRST_ERROR = -26.0  # binary logarithm of the squared error that a first step is taken to follow
 SHORTEST = 1e-16  # step over duration at which a run is given up
 RESOLUTION = 2.5e-15  # step over time at which a run is given up
-NEAR = 5e-4  # of the bend of a step: how near to its record a coordinate must come to be looked into
+DOUBT = 5e-6  # of the bend of a step: how far an estimate of where it turns may be off, at tight tolerances
 BLOCKS = 3 + 4 * COORDINATE_COUNT  # of LANES places in the queue, more than one step of all lanes may need
 QUADRATURE = (  # nodes and weights of Gauss and Legendre on 0 .. 1
     (0.019855071751231884, 0.05061426814518813),
@@ -547,7 +547,7 @@ def _errors(work, rtol, atol):
 
 
 @_compiled
-def _marks(work, smallest, largest):
+def _marks(work, doubt, smallest, largest):
     """FLAG of the lanes whose accepted step must be looked into.
 
     1 where a coordinate turns once and may beat its record (an estimate of its value there is left in TOP, how
@@ -582,9 +582,9 @@ def _marks(work, smallest, largest):
             bend = 2.0 * c2 + x * (6.0 * c3 + x * (12.0 * c4 + x * 20.0 * c5))
             x = min(max(x - slope / bend, 0.0), 1.0)
             top = first + x * (slope_0 + x * (c2 + x * (c3 + x * (c4 + x * c5))))
-            near = NEAR * (abs(bend_0) + abs(bend_1)) + 0.25 * abs(
-                (slope_0 - slope_1) / 32.0 + (bend_0 + bend_1) / 64.0
-            )
+            # what degree 3 would be off in the middle
+            cubic = (slope_0 - slope_1) / 32.0 + (bend_0 + bend_1) / 64.0
+            near = doubt * (abs(bend_0) + abs(bend_1)) + 0.1 * abs(cubic)
             record = top - near < work[LOWEST + at] if slope_0 < 0.0 else top + near > work[HIGHEST + at]
             # slopes at the quarters of the step: more than one change of sign needs a search
             early = slope_0 + 0.25 * (2.0 * c2 + 0.25 * (3.0 * c3 + 0.25 * (4.0 * c4 + 1.25 * c5)))
@@ -1146,6 +1146,7 @@ def integrate(
     """
     rtol, atol, smallest, largest, duration = numerics[0], numerics[1], numerics[2], numerics[3], numerics[4]
     work, queue, none = np.ones(SIZE), np.ones(BLOCKS * SIZE), np.int64(0)  # a bare 0 would be a type of its own
+    doubt = DOUBT + rtol**0.75  # long steps of loose tolerances are harder to estimate
     runs, piece = np.full(LANES, -1), np.zeros(LANES, np.int64)
     waiting, queued, running, ended, turn = first, none, none, none, none
     for k in range(LANES):
@@ -1197,7 +1198,7 @@ def integrate(
             break
         _stages(work, vibrates, averages)
         _errors(work, rtol, atol)
-        marked = _marks(work, smallest, largest)
+        marked = _marks(work, doubt, smallest, largest)
         for k in range(LANES if marked > 0 else 0):
             if work[FLAG + k] < 0.5 or runs[k] < 0:
                 continue
