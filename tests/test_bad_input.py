@@ -231,7 +231,17 @@ CASES = {
     "threads": (_sweep(threads=0), "threads must be an integer of at least 1, got 0"),
     "threads float": (_sweep(threads=1.5), "threads must be an integer of at least 1, got 1.5"),
     "engine": (_sweep(engine="fortran"), "engine must be one of auto, .*numpy, scipy"),
-    "control": (_sweep(step_control="pi"), "step_control must be one of scipy, ode45"),
+    "control": (_sweep(step_control="deadbeat"), "step_control must be one of scipy, ode45, pi"),
+    "control of another engine": (
+        _sweep(engine="numpy", step_control="pi"),
+        "engine 'numpy' has method 'DOP853', 'RK45', step_control 'scipy', 'ode45' and .* got 'DOP853', 'pi'",
+    ),
+    "compiled control": (_sweep(engine="compiled", step_control="scipy"), "engine 'compiled' has .* only"),
+    "compiled method": (
+        _sweep(engine="compiled", method="RK45"),
+        "engine 'compiled' has method 'DOP853', .*",
+    ),
+    "compiled extrema": (_sweep(engine="compiled", extrema="steps"), "engine 'compiled' has .* 'dense' only"),
     "control pair": (_sweep(step_control="ode45"), "step_control 'ode45' belongs to method 'RK45'"),
     "extrema": (_sweep(extrema="best"), "extrema must be one of dense, samples, steps"),
     "engine pair": (_sweep(engine="scipy", extrema="steps"), "engine 'scipy' has .* only"),

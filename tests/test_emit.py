@@ -250,6 +250,7 @@ def test_the_same_text_under_any_hash_seed():
         for seed in ("0", "4711")
     )
     assert all(f'"""{module_of(name).__doc__[:40]}'.encode() in first for name in NAMES)
+    assert first.count(b": many trajectories side by side, compiled.\n") == len(NAMES)
     assert first == second
 
 
@@ -268,13 +269,14 @@ def test_a_changed_equation_changes_the_digest(equations):
 
 
 def test_a_checked_in_module_is_what_the_derivation_emits(equations, tmp_path):
-    """The module of the uniaxial membrane, byte for byte; `make check-generated` compares all of them."""
+    """The modules of the uniaxial membrane, byte for byte; `make check-generated` compares all of them."""
     from delagrange.derive import pipeline
     from delagrange.derive.published.sheng_2015 import SHENG_2015
     from delagrange.derive.verify import verify
 
     eom = equations("uniaxial")
-    modules = (("uniaxial.py", emit(kernel(eom, verify(eom, SHENG_2015)))),)
+    modules = pipeline.emitted(kernel(eom, verify(eom, SHENG_2015)))
+    assert [name for name, _ in modules] == ["uniaxial.py", "uniaxial_lanes.py"]
     folder = Path(str(resources.files("delagrange.generated")))
     assert pipeline.stale(modules, folder) == ()
     pipeline.write(modules, tmp_path)
