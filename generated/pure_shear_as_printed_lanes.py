@@ -1219,7 +1219,7 @@ def integrate(
         if averages:
             _take_averages(work)
         turn += 1
-        if turn % 256 == 0 or changed:
+        if turn % 256 == 0:
             progress[0] = ended
             for k in range(LANES):
                 progress[0] += work[TIME + k] / duration if runs[k] >= 0 else 0.0

@@ -245,7 +245,7 @@ def test_chunks_and_parts_do_not_show(monkeypatch, samples):
     monkeypatch.setattr(engines, "ENGINES", {**engines.ENGINES, "compiled": small})
     xr.testing.assert_identical(dl.frequency_response("uniaxial", **sweep), whole)
     monkeypatch.setattr(compiled, "_DRIVE_NUMBERS", 50)
-    monkeypatch.setattr(compiled, "_LARGEST_PART", 2)
+    monkeypatch.setattr(compiled, "_parts", lambda lanes, workers, width: compiled._slices(lanes, 2))
     xr.testing.assert_identical(dl.frequency_response("uniaxial", **sweep), whole)
 
 

@@ -22,7 +22,6 @@ from delagrange.lanes import Interrupted, Outcome, Sampling, Settings, empty_out
 from delagrange.problem import Problem
 
 _LOOK = 0.05  # [s], how often progress is reported and the keyboard heard
-_LARGEST_PART = 512  # runs that a thread takes at a time
 _DRIVE_NUMBERS = 1 << 22  # of the drives' pieces, in memory at a time
 
 
@@ -153,7 +152,7 @@ def _run_on_threads(call: Call, threads: int | None, report: Report | None) -> N
     """Integrate all lanes, part by part, on as many threads as are wanted and there are cores."""
     lanes = call.table.shape[1]
     workers = _cores() if threads is None else threads
-    parts = list(_slices(lanes, _part_length(lanes, workers, call.kernel.LANES)))
+    parts = list(_parts(lanes, workers, call.kernel.LANES))
     progress = np.zeros((len(parts), 1))
     with ThreadPoolExecutor(workers) as pool:
         waiting = {
@@ -178,10 +177,14 @@ def _cores() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
-def _part_length(lanes: int, workers: int, width: int) -> int:
-    """Whole widths of the kernel, in parts enough that the threads end together."""
-    wanted = -(-lanes // (16 * workers))
-    return min(max(-(-wanted // width) * width, width), _LARGEST_PART)
+def _parts(lanes: int, workers: int, width: int) -> Iterator[slice]:
+    """Parts in whole widths of the kernel: large ones first, small ones last, so that all threads end together."""
+    start = 0
+    while start < lanes:
+        share = lanes - start if workers == 1 else -(-(lanes - start) // (2 * workers))
+        stop = min(start + -(-share // width) * width, lanes)
+        yield slice(start, stop)
+        start = stop
 
 
 def _outcome(call: Call) -> Outcome:
