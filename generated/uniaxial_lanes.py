@@ -1210,7 +1210,8 @@ def integrate(
         work[STOP + k] = np.inf
     changed = True
     while True:
-        if queued >= LANES or (running == 0 and waiting == last and queued > 0):
+        over = stop[0] != 0 or (running == 0 and waiting == last)
+        if queued >= LANES or (over and queued > 0):
             _begin(queue, vibrates)  # whose places are all fresh
             _stages(queue, vibrates, averages)
             _note_ends(queue)
@@ -1221,6 +1222,8 @@ def integrate(
             _move_up(queue, queued)
             queued = max(queued - LANES, none)
             continue
+        if over:
+            break
         if changed:
             for k in range(LANES):
                 if runs[k] >= 0 and work[LEAVES + k] > 0.5:
@@ -1250,8 +1253,6 @@ def integrate(
             _first_steps(work, rtol, atol, duration)
             changed = False
             continue
-        if running == 0 or stop[0] != 0:
-            break
         _stages(work, vibrates, averages)
         _errors(work, rtol, atol)
         marked = _marks(work, doubt, smallest, largest)
@@ -1276,6 +1277,8 @@ def integrate(
             _take_averages(work)
         turn += 1
         if turn % 256 == 0:
-            progress[0] = ended
+            done = 1.0 * ended
             for k in range(LANES):
-                progress[0] += work[TIME + k] / duration if runs[k] >= 0 else 0.0
+                done += work[TIME + k] / duration if runs[k] >= 0 else 0.0
+            progress[0] = done
+    progress[0] = 1.0 * ended

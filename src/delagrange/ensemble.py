@@ -169,7 +169,9 @@ def _judge(
         settings.control.smallest_step(trial.before.time), loss.SMALLEST_STEP * settings.duration
     )
     resolved = trial.next_step >= smallest  # not so for NaN
-    stuck = ~resolved & (~trial.accepted | (trial.before.step < smallest))  # where the end cut a step, it is not
+    stuck = ~resolved & (
+        ~trial.accepted | (trial.before.step < smallest)
+    )  # where the end cut a step, it is not
     if np.any(beyond):
         trial = _cut_at_loss(problem, trial, settings, np.flatnonzero(beyond))
     if sampling is not None:
