@@ -15,7 +15,7 @@ from delagrange.tableau import Tableau
 class Settings:
     """How to integrate and what to measure."""
 
-    tableau: Tableau
+    tableau: Tableau | None  # None for an engine that carries its own
     control: StepControl
     duration: float  # [s]
     window: tuple[float, float]  # [s], where extrema and averages are taken

@@ -9,7 +9,6 @@ from __future__ import annotations
 from itertools import pairwise
 
 import numpy as np
-from scipy.integrate import fixed_quad, solve_ivp
 
 from delagrange import loss
 from delagrange.ensemble import Report, segments
@@ -88,6 +87,8 @@ def _integrals(solution, count: int) -> np.ndarray:
         value = solution.sol(times)[:count]
         return np.stack([value, value**2])
 
+    from scipy.integrate import fixed_quad
+
     steps = (fixed_quad(powers, *span, n=_QUADRATURE_POINTS)[0] for span in pairwise(solution.t))
     return sum(steps, np.zeros((2, count)))
 
@@ -99,6 +100,8 @@ def _solve(problem: Problem, state: np.ndarray, start: float, stop: float, setti
     lost.terminal = True
     count = problem.model.COORDINATE_COUNT
     rates = [lambda time, state, place=place: state[place] for place in range(count, 2 * count)]
+    from scipy.integrate import solve_ivp  # takes half a second, which other engines need not wait
+
     return solve_ivp(
         problem.rhs,
         (start, stop),

@@ -24,7 +24,7 @@ from delagrange.problem import Problem, make_problem
 from delagrange.progress import Progress, progress_bar
 from delagrange.sampling import make_sampling
 from delagrange.step_control import step_control
-from delagrange.tableau import tableau
+from delagrange.tableau import Tableau, tableau
 from delagrange.tolerances import check_duration, check_tolerances, check_window
 
 INPUT_UNITS: Mapping[str, str] = {"force": "N", "field_amplitude": "V/m", "field_bias": "V/m"}
@@ -164,7 +164,7 @@ def make_settings(
     duration = check_duration(duration)
     rtol, atol = check_tolerances(rtol, atol)
     return Settings(
-        tableau=tableau("RK45_MATLAB" if numerics.step_control == "ode45" else numerics.method),
+        tableau=_tableau(numerics),
         control=step_control(numerics.step_control, rtol, atol, duration),
         duration=duration,
         window=check_window(window, duration),
@@ -173,6 +173,13 @@ def make_settings(
         averages=averages,
         threads=None if threads is None else checks.count("threads", threads, 1),
     )
+
+
+def _tableau(numerics: Numerics) -> Tableau | None:
+    """The pair of the method; a compiled kernel carries its own."""
+    if numerics.engine == "compiled":
+        return None
+    return tableau("RK45_MATLAB" if numerics.step_control == "ode45" else numerics.method)
 
 
 def run_sweep(sweep: Sweep, progress: bool) -> Outcome:

@@ -12,7 +12,6 @@ from functools import cache
 
 import numpy as np
 from numpy.polynomial import Polynomial
-from scipy.integrate import DOP853, RK45
 
 Row = tuple[tuple[int, float], ...]  # (stage, coefficient) of the coefficients that are not zero
 
@@ -62,6 +61,8 @@ def _rows(matrix: np.ndarray) -> tuple[Row, ...]:
 
 
 def _dop853() -> Tableau:
+    from scipy.integrate import DOP853  # takes half a second, which an engine with its own pair need not wait
+
     return Tableau(
         name="DOP853",
         error_order=7,
@@ -80,6 +81,8 @@ def _dop853_interpolant() -> np.ndarray:
 
     y(x) - y_0 = x (F_0 + (1-x) (F_1 + x (F_2 + (1-x) (F_3 + ... )))), F linear in h K.
     """
+    from scipy.integrate import DOP853
+
     stages, last = len(DOP853.D[0]), DOP853.n_stages
     increment = np.zeros(stages)
     increment[:last] = DOP853.B
@@ -92,7 +95,9 @@ def _dop853_interpolant() -> np.ndarray:
     return interpolant
 
 
-def _rk45(interpolant: np.ndarray = RK45.P, name: str = "RK45") -> Tableau:
+def _rk45(interpolant: np.ndarray | None = None, name: str = "RK45") -> Tableau:
+    from scipy.integrate import RK45
+
     return Tableau(
         name=name,
         error_order=4,
@@ -102,7 +107,7 @@ def _rk45(interpolant: np.ndarray = RK45.P, name: str = "RK45") -> Tableau:
         errors=_rows(RK45.E),
         extra_nodes=(),
         extra_coupling=(),
-        interpolant=_rows(interpolant.T),
+        interpolant=_rows((RK45.P if interpolant is None else interpolant).T),
     )
 
 
