@@ -260,9 +260,9 @@ def test_progress_grows_to_the_number_of_lanes():
     state = np.repeat(np.array([[1.0], [0.0], [1.0]]), 3, axis=1)
     numerics = Numerics("DOP853", "compiled", "pi", "dense")
     integrate_compiled(
-        problem, state, make_settings(3.0, None, 1e-9, 1e-12, numerics, dl.Limits()), None, seen.append
+        problem, state, make_settings(9.0, None, 1e-9, 1e-12, numerics, dl.Limits()), None, seen.append
     )
-    assert len(seen) > 3 and seen == sorted(seen) and 0 <= seen[0] < seen[-1] == 3
+    assert len(seen) > 1 and seen == sorted(seen) and 0 <= seen[0] < seen[-1] == 3
 
 
 # --- drives, windows, samples ------------------------------------------------------------------------
