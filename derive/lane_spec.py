@@ -15,11 +15,7 @@ from delagrange.derive.kernel_spec import Assignment, KernelFunction, KernelSpec
 from delagrange.derive.lane_constants import Constants
 from delagrange.derive.operations import operations
 from delagrange.derive.products import share_products
-from delagrange.derive.reciprocals import (
-    denominators,
-    share_division,
-    without_division,
-)
+from delagrange.derive.reciprocals import denominators, share_division, without_division
 from delagrange.derive.shared import share_subexpressions
 
 
@@ -28,7 +24,9 @@ class LaneSpec:
     """An ensemble kernel, whatever language it is written in."""
 
     model: KernelSpec
-    constants: tuple[Assignment, ...]  # of a trajectory, in terms of the parameters; helpers are not kept
+    constants: tuple[
+        Assignment, ...
+    ]  # the volume, then what does not move, in terms of it and the parameters
     rates: KernelFunction  # rate of change of the state, in terms of state, inputs and constants
     principal_stretches: KernelFunction
     operations: int  # of one evaluation of `rates`, per trajectory
