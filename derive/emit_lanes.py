@@ -72,7 +72,7 @@ def _names_and_sizes(spec: LaneSpec, pair: Pair) -> dict[str, Any]:
         "state_count": len(spec.model.state),
         "coordinate_count": spec.model.coordinate_count,
         "input_count": len(spec.model.inputs),
-        "constant_count": len(spec.constants) - 1,
+        "constant_count": len(spec.constants),
         "rows": work,
         "size": total(work),
         "table_rows": table,
@@ -122,7 +122,7 @@ def _sum_lines(head: str, row: Row, array: str) -> list[str]:
 
 
 def _constants_lines(spec: LaneSpec) -> list[str]:
-    volume, *constants = spec.constants
+    volume, constants = spec.volume, spec.constants
     values = [a.expression for a in constants]
     uses_volume = any(symbol.name == volume.name for value in values for symbol in value.free_symbols)
     needed = [volume.expression, *values] if uses_volume else values
@@ -150,7 +150,7 @@ def _loads(function: KernelFunction, spec: LaneSpec, indent: str) -> list[str]:
     groups = (
         ("POINT", [entry.name for entry in spec.model.state]),
         ("INPUT", [entry.name for entry in spec.model.inputs]),
-        ("CONSTANT", [constant.name for constant in spec.constants[1:]]),
+        ("CONSTANT", [constant.name for constant in spec.constants]),
     )
     return [
         f"{indent}{name} = work[{_place(row, number)}]"

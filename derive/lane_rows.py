@@ -45,7 +45,7 @@ def work_rows(spec: LaneSpec, stages: int) -> tuple[Rows, ...]:
             ("TURNS_STEP", inputs, "its change over the step"),
             ("LINE", inputs, "the line under that sine at the start of the step"),
             ("LINE_STEP", inputs, "its change over the step"),
-            ("CONSTANT", len(spec.constants) - 1, "what of the equations does not move"),
+            ("CONSTANT", len(spec.constants), "what of the equations does not move"),
             ("DRIVE", 5 * inputs, "the piece of the drives, as below"),
             ("TIME", 1, "[s], at the start of the step"),
             ("END", 1, "[s], at its end"),
@@ -95,7 +95,7 @@ def table_rows(spec: LaneSpec) -> tuple[Rows, ...]:
     """Rows of what a trajectory is made of."""
     return _placed(
         [
-            ("FIRST_CONSTANT", len(spec.constants) - 1, "what `constants` returns"),
+            ("FIRST_CONSTANT", len(spec.constants), "what `constants` returns"),
             ("FIRST_STATE", len(spec.model.state), "at t = 0"),
             ("FIRST_SAMPLE", 1, "[s]"),
             ("SAMPLE_SPACING", 1, "[s]"),

@@ -24,9 +24,8 @@ class LaneSpec:
     """An ensemble kernel, whatever language it is written in."""
 
     model: KernelSpec
-    constants: tuple[
-        Assignment, ...
-    ]  # the volume, then what does not move, in terms of it and the parameters
+    volume: Assignment  # of the membrane, in terms of the parameters
+    constants: tuple[Assignment, ...]  # what does not move, in terms of volume and parameters
     rates: KernelFunction  # rate of change of the state, in terms of state, inputs and constants
     principal_stretches: KernelFunction
     operations: int  # of one evaluation of `rates`, per trajectory
@@ -41,7 +40,7 @@ def lane_spec(spec: KernelSpec) -> LaneSpec:
     rates = _arranged(functions["rhs"], spec, constants)
     principal = _arranged(functions["principal_stretches"], spec, constants)
     named = tuple(Assignment(name.name, value) for value, name in constants.values.items())
-    return LaneSpec(spec, (volume, *named), rates, principal, _operations(rates))
+    return LaneSpec(spec, volume, named, rates, principal, _operations(rates))
 
 
 def _operations(function: KernelFunction) -> int:

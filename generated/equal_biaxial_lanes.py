@@ -880,8 +880,8 @@ def _sample_time(table, run, number, count, duration):
 
 
 @_compiled
-def _keep(work, k, at_loss, run, results, status, time):
-    """Write what a lane has come to: its state, at a loss from POINT, and all that was measured."""
+def _keep(work, k, run, results, status, time):
+    """Write what a lane has come to: its state at POINT, and all that was measured."""
     span = work[MEASURED_TIME + k]
     for i in range(COORDINATE_COUNT):
         results[MAXIMUM + i, run] = max(results[MAXIMUM + i, run], work[HIGHEST + i * LANES + k])
@@ -889,8 +889,7 @@ def _keep(work, k, at_loss, run, results, status, time):
         results[MEAN + i, run] = work[SUM + i * LANES + k] / span
         results[MEAN_SQUARE + i, run] = work[SQUARE_SUM + i * LANES + k] / span
     for i in range(STATE_COUNT):
-        at = i * LANES + k
-        results[LAST_STATE + i, run] = work[POINT + at] if at_loss else work[STATE + at]
+        results[LAST_STATE + i, run] = work[POINT + i * LANES + k]
     results[STATUS, run] = status
     results[STATUS_TIME, run] = time
     results[STEPS_TAKEN, run] = work[STEPS + k]
@@ -916,7 +915,9 @@ def _finish(work, k, run, lost, results):
     """Write what a lane has come to at the end of its time, or where its step is no longer resolved."""
     if work[MEASURED + k] > 0.5:
         work[MEASURED_TIME + k] += work[TIME + k] - work[START + k]
-    _keep(work, k, work[TIME + k] < 0.0, run, results, DIVERGED if lost else COMPLETED, work[TIME + k])
+    for i in range(STATE_COUNT):
+        work[POINT + i * LANES + k] = work[STATE + i * LANES + k]  # a rejected step has left something else there
+    _keep(work, k, run, results, DIVERGED if lost else COMPLETED, work[TIME + k])
 
 
 @_compiled
@@ -1110,7 +1111,7 @@ def _look_into(queue, count, smallest, largest, averages, table, results, sample
                     _averages_upto(queue, k, upto)
             queue[STEPS + k] += 1.0
             status = _kind_of_loss(queue, k, smallest, largest)
-            _keep(queue, k, lost, run, results, status, end)
+            _keep(queue, k, run, results, status, end)
 
 
 @_cached
@@ -1177,7 +1178,7 @@ def integrate(
                         _open_piece(work, k, waiting, piece[k], pieces, drives)
                     else:
                         status = _kind_of_loss(work, k, smallest, largest)
-                        _keep(work, k, waiting < 0, waiting, results, status, 0.0)
+                        _keep(work, k, waiting, results, status, 0.0)
                         ended += 1
                     waiting += 1
                 if runs[k] < 0:

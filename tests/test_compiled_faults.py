@@ -20,10 +20,13 @@ import pytest
 import xarray as xr
 
 import delagrange as dl
-from delagrange import kernels
+from delagrange import compiled, kernels, loss
 from delagrange.compiled import integrate_compiled
 from delagrange.drive import Drive
-from delagrange.problem import Problem
+from delagrange.engines import Numerics
+from delagrange.lanes import Interrupted
+from delagrange.problem import Problem, make_problem
+from delagrange.sweep import make_settings
 
 POINT = {"frequency": [300.0], "field_amplitude": 1e6, "duration": 1e-3}
 GENERATED = Path(dl.load_model("equal_biaxial").__file__).parent
@@ -323,6 +326,31 @@ def test_control_c_ends_a_long_sweep_at_once_and_keeps_what_was_finished(tmp_pat
         last
         == f"delagrange: interrupted: 201 of 402 runs were not computed and are in {out} with that status"
     )
+
+
+def test_what_had_ended_before_an_interruption_is_whole(monkeypatch):
+    """Steps that wait to be looked into when the sweep is interrupted belong to runs that have ended."""
+    lanes, model = 2000, dl.load_model("equal_biaxial")
+    field = dl.Sine(np.full(lanes, 3e6), np.linspace(100.0, 800.0, lanes))
+    problem = make_problem(model, dl.SHENG_2015, {}, None, 0.5, field)
+    state = np.repeat(np.array([[1.0], [0.0], [1.0]]), lanes, axis=1)
+    numerics = Numerics("DOP853", "compiled", "pi", "dense")
+    chosen = make_settings(0.1, None, 1e-9, 1e-12, numerics, dl.Limits(), threads=1)
+    whole = integrate_compiled(problem, state, chosen)
+
+    def interrupt(done):
+        if done > 200:
+            raise KeyboardInterrupt
+
+    monkeypatch.setattr(compiled, "_LOOK", 1e-3)
+    with pytest.raises(Interrupted) as caught:
+        integrate_compiled(problem, state, chosen, None, interrupt)
+    part = caught.value.outcome
+    ended = part.status == loss.COMPLETED
+    assert 100 < np.sum(ended) < lanes
+    np.testing.assert_array_equal(part.maximum[:, ended], whole.maximum[:, ended])
+    np.testing.assert_array_equal(part.minimum[:, ended], whole.minimum[:, ended])
+    assert np.all(np.isnan(part.maximum[:, ~ended]))
 
 
 def test_an_error_in_one_thread_stops_the_others(monkeypatch):

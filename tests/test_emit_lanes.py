@@ -161,7 +161,8 @@ def test_arranged_equations_are_the_modules_equations(name, equations):
     rhs = next(function for function in spec.functions if function.name == "rhs")
     before = [(entry.name, plain(entry.expression)) for entry in rhs.assignments]
     after = [
-        (entry.name, plain(entry.expression)) for entry in (*arranged.constants, *arranged.rates.assignments)
+        (entry.name, plain(entry.expression))
+        for entry in (arranged.volume, *arranged.constants, *arranged.rates.assignments)
     ]
     symbols = [sp.Symbol(entry.name) for entry in (*spec.state, *spec.inputs, *spec.parameters)]
     values = {symbol: sp.Rational(7 + 3 * place, 5 + 2 * place) for place, symbol in enumerate(symbols)}

@@ -106,17 +106,13 @@ def _call(
         table=_table(kernel, problem, initial_state, sampling),
         drives=drives,
         vibrates=np.any(amplitudes != 0, axis=(0, 2)),
-        pieces=np.array([(*span, float(_is_measured(span, settings))) for span in spans]),
+        pieces=np.array([(*span, float(settings.measures(*span))) for span in spans]),
         numerics=_numerics(settings),
         averages=settings.averages,
         results=_empty_results(kernel, lanes),
         samples=np.full((count, kernel.STATE_COUNT, lanes), np.nan),
         stop=np.zeros(1, dtype=np.int8),
     )
-
-
-def _is_measured(span: tuple[float, float], settings: Settings) -> bool:
-    return settings.window[0] <= span[0] and span[1] <= settings.window[1]
 
 
 def _numerics(settings: Settings) -> np.ndarray:

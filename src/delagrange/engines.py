@@ -68,7 +68,7 @@ def resolve_numerics(
     engine = resolve_engine(engine, method, control, extrema, model, force)
     able = ENGINES[engine]
     control = able.step_controls[0] if control is None else control
-    if method not in able.methods or control not in able.step_controls or extrema not in able.extrema:
+    if not _suits(able, method, control, extrema):
         raise ValueError(
             f"engine {engine!r} has method {_quoted(able.methods)}, step_control "
             f"{_quoted(able.step_controls)} and extrema {_quoted(able.extrema)} only, "
@@ -89,22 +89,22 @@ def resolve_engine(
     """
     if engine not in (AUTO, "compiled"):
         return engine
-    able = ENGINES["compiled"]
-    wanted = method in able.methods and control in (None, *able.step_controls) and extrema in able.extrema
-    if engine == AUTO and not wanted:
+    if engine == AUTO and not _suits(ENGINES["compiled"], method, control, extrema):
         return "numpy"
     obstacle = _obstacle(model, force)
-    if obstacle is None:
-        broken = _why_not_compiled(model)
-        if broken is None:
-            return "compiled"
-        if engine == AUTO:
-            warnings.warn(f"{broken}; the sweep runs on engine 'numpy', more slowly", stacklevel=4)
-            return "numpy"
-        obstacle = broken
-    if engine == AUTO:
-        return "numpy"
-    raise ValueError(f"engine 'compiled' cannot run this: {obstacle}; use 'numpy', or 'auto'")
+    broken = None if obstacle else _why_not_compiled(model)
+    if not (obstacle or broken):
+        return "compiled"
+    if engine == "compiled":
+        raise ValueError(f"engine 'compiled' cannot run this: {obstacle or broken}; use 'numpy', or 'auto'")
+    if broken:
+        warnings.warn(f"{broken}; the sweep runs on engine 'numpy', more slowly", stacklevel=4)
+    return "numpy"
+
+
+def _suits(able: Engine, method: str, control: str | None, extrema: str) -> bool:
+    """Whether an engine has the numerics; its own step control where None."""
+    return method in able.methods and control in (None, *able.step_controls) and extrema in able.extrema
 
 
 def _obstacle(model: ModuleType, force: object) -> str | None:

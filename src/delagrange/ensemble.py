@@ -70,7 +70,7 @@ def _integrate_into(
     lanes = first_lanes(initial_state, problem.model.COORDINATE_COUNT, settings.averages)
     lanes = _without_lost_at_start(problem, lanes, settings, outcome)
     for span in segments(problem, settings):
-        inside = settings.window[0] <= span[0] and span[1] <= settings.window[1]
+        inside = settings.measures(*span)
         measured = settings if inside else replace(settings, extrema="none", averages=False)
         lanes = _run_segment(problem, lanes, measured, span, outcome, sampling, report)
 
@@ -169,9 +169,8 @@ def _judge(
         settings.control.smallest_step(trial.before.time), loss.SMALLEST_STEP * settings.duration
     )
     resolved = trial.next_step >= smallest  # not so for NaN
-    stuck = ~resolved & (
-        ~trial.accepted | (trial.before.step < smallest)
-    )  # where the end cut a step, it is not
+    cut = trial.accepted & (trial.before.step >= smallest)  # a short step to the end of a segment
+    stuck = ~resolved & ~cut
     if np.any(beyond):
         trial = _cut_at_loss(problem, trial, settings, np.flatnonzero(beyond))
     if sampling is not None:

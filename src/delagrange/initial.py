@@ -56,7 +56,7 @@ def state_at_start(model: ModuleType, reference: np.ndarray, values: Mapping[str
 
 
 def _checked(name: str, value: object, unit: str) -> float | np.ndarray:
-    check = checks.finite if "stretch_rate" in name else checks.positive
+    check = checks.positive if unit == "1" else checks.finite  # a stretch, or its rate
     return check(f"initial_state {name}", value, unit)
 
 

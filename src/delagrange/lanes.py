@@ -24,6 +24,10 @@ class Settings:
     averages: bool = False  # mean and mean square of the coordinates over the window
     threads: int | None = None  # for engines that use threads; None: as many as they like
 
+    def measures(self, start: float, stop: float) -> bool:
+        """Whether the time from `start` to `stop` [s] lies in the window; segments lie inside it or outside."""
+        return self.window[0] <= start and stop <= self.window[1]
+
 
 @dataclass(frozen=True)
 class Sampling:

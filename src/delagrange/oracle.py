@@ -51,7 +51,7 @@ def _run_lane(
             break
         piece = problem.piece(start, stop)
         solution = _solve(piece, state, start, stop, settings, settings.averages or len(times) > 0)
-        if settings.window[0] <= start and stop <= settings.window[1]:
+        if settings.measures(start, stop):
             measured.append(solution)
         state, time, status = solution.y[:, -1], solution.t[-1], _status_after(problem, solution, settings)
         sampled = (times > start) & (times <= time)

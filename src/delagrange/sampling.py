@@ -33,17 +33,17 @@ def _section_sampling(
 
     The fraction of a period, 0 <= fraction < 1, is that of `analysis.sections`.
     """
-    fraction = _fraction(measures.section_phase - field_phase)
+    fraction = fraction_of_period(measures.section_phase - field_phase)
     held = whole_periods(frequency * duration - fraction) + 1
     _check_enough(measures, duration, frequency, np.maximum(held, 0))
     first = (held - measures.section_points + fraction) / frequency
     return _within_duration(Sampling(first, 1 / frequency, measures.section_points), duration)
 
 
-def _fraction(phase: np.ndarray) -> np.ndarray:
+def fraction_of_period(phase: float | np.ndarray) -> float | np.ndarray:
     """Part of a period, in [0, 1), that an angle [rad] is; rounding must not make it a whole one."""
     fraction = np.mod(phase / (2 * np.pi), 1.0)
-    return np.where(fraction == 1.0, 0.0, fraction)
+    return np.where(fraction == 1.0, 0.0, fraction)[()]
 
 
 def _check_enough(measures: Measures, duration: float, frequency: np.ndarray, held: np.ndarray) -> None:

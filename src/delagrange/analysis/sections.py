@@ -8,6 +8,7 @@ import xarray as xr
 from delagrange import checks
 from delagrange.dataset import variable
 from delagrange.drive import Drive, Sine
+from delagrange.sampling import fraction_of_period
 from delagrange.simulation import simulate
 
 
@@ -49,16 +50,10 @@ def stroboscopic_section(
     numbers = np.arange(count) + checks.count("transient", transient, 0)
     period, start = _period(period, field, force)
     phase = checks.scalar("phase", checks.finite("phase", phase, "rad"), "rad")
-    times = (numbers + _fraction(phase - start)) * period
+    times = (numbers + fraction_of_period(phase - start)) * period
     duration = max(float(times[-1]), period)
     run = simulate(model, field=field, force=force, duration=duration, time=times, **options)
     return _over_points(run, numbers, {"period": period, "phase": phase})
-
-
-def _fraction(phase: float) -> float:
-    """Part of a period, in [0, 1), that an angle [rad] is; rounding must not make it a whole one."""
-    fraction = float(np.mod(phase / (2 * np.pi), 1.0))
-    return 0.0 if fraction == 1.0 else fraction
 
 
 def _period(given: float | None, *drives: Drive | float) -> tuple[float, float]:
