@@ -77,8 +77,9 @@ def check_model_dimensions(eom: EquationsOfMotion) -> int:
     """Check every part of a model that a module is emitted from, and say how many there are.
 
     These are the energies [J], the mass matrix [kg m^2], the forces [J], the powers [W], the
-    stresses on the dashpots [Pa], the reactions [N], the flow of the internal variables [1/s] and
-    the Jacobian, whose entry (i, j) has the unit of the rate of state i over that of state j.
+    stresses on the dashpots [Pa], the reactions [N], the forces on the edges [N], the flow of the internal
+    variables [1/s] and the Jacobians, whose entry (i, j) has the unit of the rate of state i over that of
+    state or input j.
 
     Raises:
         DimensionError: a term has another unit; the message has the model, the part and the term.
@@ -101,6 +102,7 @@ def _parts(eom: EquationsOfMotion) -> Iterator[_Made]:
     yield from _numbered("internal_rate", eom.internal_rates, Dimension.of_unit("1/s"))
     yield from _numbered("reaction_force", eom.reaction_forces, force)
     yield from _numbered("static_reaction_force", eom.static_reaction_forces, force)
+    yield from _numbered("edge_force", eom.edge_forces, force)
     yield _Made("force_power", eom.force_power, power)
     yield from _numbered("deviatoric_stress", eom.dissipation.deviators, Dimension.of_unit("Pa"))
     yield _Made("dashpot_power", eom.dashpot_power, power)
@@ -120,8 +122,11 @@ def _entries(name: str, matrix: sp.ImmutableMatrix, dimension: Dimension) -> Ite
 def _jacobian_entries(eom: EquationsOfMotion) -> Iterator[_Made]:
     state = tuple(Dimension.of_unit(quantity.unit) for quantity in eom.state)
     second = Dimension.of_unit("s")
+    inputs = tuple(Dimension.of_unit(quantity.unit) for quantity in eom.load_case.inputs)
     for (i, row), (j, column) in product(enumerate(state), repeat=2):
         yield _Made(f"jacobian[{i}, {j}]", eom.jacobian[i, j], row / second / column)
+    for (i, row), (j, column) in product(enumerate(state), enumerate(inputs)):
+        yield _Made(f"input_jacobian[{i}, {j}]", eom.input_jacobian[i, j], row / second / column)
 
 
 def _check(model: str, made: _Made, dimensions: Mapping[sp.Symbol, Dimension]) -> tuple[TermDimension, ...]:

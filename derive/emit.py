@@ -123,7 +123,7 @@ def _view(spec: KernelSpec) -> dict[str, Any]:
         "parameters": spec.parameters,
         "reactions": spec.reactions,
         "functions": [_function_view(function, spec) for function in spec.functions],
-        "reference_lines": "\n".join([] if set(names) == {"_"} else unpacked(names, "parameters")),
+        "reference_lines": "\n".join([] if set(names) <= {"_"} else unpacked(names, "parameters")),
         "reference_state": ", ".join(_as_float(value) for value in spec.reference_state),
         "held": bool(any(value.free_symbols for value in spec.reference_state)) or spec.reactions != (),
         "state_size": len(spec.state),

@@ -6,16 +6,21 @@ machine.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import sympy as sp
 
-from delagrange.derive.code_lines import WIDTH, broken, unpacked
-from delagrange.derive.kernel_spec import Assignment, KernelFunction
+from delagrange.derive.code_lines import WIDTH
+from delagrange.derive.compiled_lines import (
+    PRINTER,
+    assignment_lines,
+    constants_lines,
+    extreme_stretches_lines,
+)
+from delagrange.derive.kernel_spec import KernelFunction
 from delagrange.derive.lane_rows import result_rows, table_rows, total, work_rows
 from delagrange.derive.lane_spec import LaneSpec
-from delagrange.derive.printer import ExpressionPrinter
 from delagrange.derive.runge_kutta import Pair, Row, Stage, dop853, quadrature
 from delagrange.derive.sine import sine_coefficients
 from delagrange.derive.template import render
@@ -25,8 +30,6 @@ _LANES = 64  # enough to hide how long an operation takes, and to share what a l
 _SINE_TERMS = 8  # right to 4e-16
 _QUADRATURE_POINTS = 8  # exact for the square of the interpolant, of degree 14
 _CONTROL = {"safety": 0.9, "growth": 0.03, "memory": 0.015}
-
-_PRINTER = ExpressionPrinter(lambda symbol: symbol.name, {sp.log: "np.log", sp.exp: "np.exp"})
 
 
 def emit_lanes(spec: LaneSpec) -> str:
@@ -42,7 +45,7 @@ def _view(spec: LaneSpec, pair: Pair) -> dict[str, Any]:
         **_CONTROL,
         "operations": spec.operations,
         "sine_operations": _sine_operations(len(sine)),
-        "constants_body": "\n".join(_constants_lines(spec)),
+        "constants_body": "\n".join(constants_lines(spec.model.parameters, spec.volume, spec.constants)),
         "rates_body": "\n".join(_rates_lines(spec)),
         "stretches_body": "\n".join(_stretches_lines(spec)),
         "sine_body": "\n".join(_horner_lines(sine)),
@@ -121,30 +124,6 @@ def _sum_lines(head: str, row: Row, array: str) -> list[str]:
     return [*lines, *body, f"{indent})"]
 
 
-def _constants_lines(spec: LaneSpec) -> list[str]:
-    volume, constants = spec.volume, spec.constants
-    values = [a.expression for a in constants]
-    uses_volume = any(symbol.name == volume.name for value in values for symbol in value.free_symbols)
-    needed = [volume.expression, *values] if uses_volume else values
-    used = {symbol.name for value in needed for symbol in value.free_symbols}
-    names = [p.name if p.name in used else "_" for p in spec.model.parameters]
-    return [
-        *unpacked(names, "parameters"),
-        *(_assignment(volume, "    ") if uses_volume else []),
-        *(line for a in constants for line in _assignment(a, "    ")),
-        *_listed([a.name for a in constants]),
-    ]
-
-
-def _listed(names: Iterable[str]) -> list[str]:
-    return ["    return [", *(f"        {name}," for name in names), "    ]"]
-
-
-def _assignment(assignment: Assignment, indent: str) -> list[str]:
-    comment = [f"{indent}# {assignment.comment}"] if assignment.comment else []
-    return comment + broken(f"{assignment.name} = ", assignment.expression, _PRINTER, indent)
-
-
 def _loads(function: KernelFunction, spec: LaneSpec, indent: str) -> list[str]:
     """What the function needs of state, inputs and constants, from their rows of lane k."""
     groups = (
@@ -165,30 +144,19 @@ def _place(row: str, number: int) -> str:
 
 
 def _body(function: KernelFunction, spec: LaneSpec, indent: str) -> list[str]:
-    statements = (line for a in function.assignments for line in _assignment(a, indent))
+    statements = (line for a in function.assignments for line in assignment_lines(a, indent))
     return [*_loads(function, spec, indent), *statements]
 
 
 def _rates_lines(spec: LaneSpec) -> list[str]:
     indent = " " * 8
     stores = [
-        f"{indent}work[{_place('out', number)}] = {_PRINTER(output)}"
+        f"{indent}work[{_place('out', number)}] = {PRINTER(output)}"
         for number, output in enumerate(spec.rates.outputs)
     ]
     return [*_body(spec.rates, spec, indent), *stores]
 
 
 def _stretches_lines(spec: LaneSpec) -> list[str]:
-    first, second, thickness = map(_PRINTER, spec.principal_stretches.outputs)
-    in_plane = (first,) if first == second else (first, second)
-    return [
-        *_body(spec.principal_stretches, spec, "    "),
-        f"    least = {_nested('min', (*in_plane, thickness))}",
-        f"    most = {_nested('max', in_plane)}",
-        "    return least, most",
-    ]
-
-
-def _nested(function: str, values: Sequence[str]) -> str:
-    first, *others = values
-    return f"{function}({first}, {_nested(function, others)})" if others else first
+    function = spec.principal_stretches
+    return [*_body(function, spec, "    "), *extreme_stretches_lines(function)]

@@ -74,10 +74,13 @@ class EquationsOfMotion:
     internal_rates: tuple[sp.Expr, ...]  # d xi/dt [1/s]
     reaction_forces: tuple[sp.Expr, ...]  # in q, q', q'' [N]
     static_reaction_forces: tuple[sp.Expr, ...]  # the same at rest [N]
+    edge_forces: tuple[sp.Expr, sp.Expr]  # on axes 1 and 2, what balances springs and field at rest [N]
     force_power: sp.Expr  # power of the applied forces [W]
     dissipation: Dissipation  # in the dashpots
     unbalanced_jacobian: sp.ImmutableMatrix  # d(F - M q'')/d state at fixed q'', (n_coordinates, n_state) [J]
     jacobian: sp.ImmutableMatrix  # of the first-order system, in the state, the inputs and q''
+    unbalanced_input_jacobian: sp.ImmutableMatrix  # d(F - M q'')/d inputs, (n_coordinates, n_inputs)
+    input_jacobian: sp.ImmutableMatrix  # of the first-order system by the inputs, (n_state, n_inputs)
 
     @property
     def potential_energy(self) -> sp.Expr:
@@ -180,6 +183,22 @@ def reaction_forces(model: Membrane, load_case: LoadCase) -> tuple[sp.Expr, ...]
         slope = residual.diff(reaction.symbol)
         found.append(tidy(-residual.subs(reaction.symbol, 0) / slope))
     return tuple(found)
+
+
+def edge_forces(model: Membrane, substitution: Substitution) -> tuple[sp.Expr, sp.Expr]:
+    """The force on each edge that balances springs and field at rest [N]: applied, or of what holds the axis.
+
+    From the full membrane, whatever the formulation of the load case: of the virtual work along one axis,
+    d(Pi without the forces)/d lambda_i = P_i times the lever of the force.
+    """
+    inner = model.energies.total - model.energies.forces
+
+    def balancing(axis: int) -> sp.Expr:
+        stretch, force = model.coordinates[axis].value.symbol, model.forces[axis].symbol
+        lever = -model.energies.forces.diff(stretch, force)
+        return tidy(_constrain(inner.diff(stretch) / lever, substitution))
+
+    return balancing(0), balancing(1)
 
 
 def at_rest(expression: sp.Expr, coordinates: tuple[TimeDependent, ...]) -> sp.Expr:
@@ -294,26 +313,32 @@ def force_terms(
 
 
 def unbalanced_jacobian(
-    mass: sp.ImmutableMatrix, force: sp.Matrix, load_case: LoadCase
+    mass: sp.ImmutableMatrix, force: sp.Matrix, load_case: LoadCase, by: tuple[Quantity, ...]
 ) -> sp.ImmutableMatrix:
-    """Derivative of F - M q'' with respect to the state at fixed q'' [J per unit of the state]."""
-    state = [quantity.symbol for quantity in state_of(load_case)]
+    """Derivative of F - M q'' with respect to state or inputs at fixed q'' [J per unit of `by`]."""
     accelerations = sp.Matrix([c.acceleration.symbol for c in load_case.coordinates])
-    return sp.ImmutableMatrix((force - mass * accelerations).jacobian(state).applyfunc(tidy))
+    variables = [quantity.symbol for quantity in by]
+    return sp.ImmutableMatrix((force - mass * accelerations).jacobian(variables).applyfunc(tidy))
 
 
 def first_order_jacobian(
-    mass: sp.ImmutableMatrix, unbalanced: sp.ImmutableMatrix, rates: tuple[sp.Expr, ...], load_case: LoadCase
+    mass: sp.ImmutableMatrix,
+    unbalanced: sp.ImmutableMatrix,
+    rates: tuple[sp.Expr, ...],
+    load_case: LoadCase,
+    by: tuple[Quantity, ...],
 ) -> sp.ImmutableMatrix:
-    """Jacobian of (q', q'', xi') with respect to the state; q'' stays a symbol.
+    """Jacobian of (q', q'', xi') with respect to state or inputs; q'' stays a symbol.
 
     From M q'' = F: dq''/dy = M^-1 (dF/dy - dM/dy q''). Only the rows of q'' are not elementary.
     """
-    state = [quantity.symbol for quantity in state_of(load_case)]
+    variables = [quantity.symbol for quantity in by]
     velocities = sp.Matrix([c.rate.symbol for c in load_case.coordinates])
     acceleration_rows = mass.adjugate() * unbalanced / mass.det()
-    internal_rows = sp.Matrix(rates).jacobian(state).applyfunc(tidy)
-    return sp.ImmutableMatrix(sp.Matrix.vstack(velocities.jacobian(state), acceleration_rows, internal_rows))
+    internal_rows = sp.Matrix(rates).jacobian(variables).applyfunc(tidy)
+    return sp.ImmutableMatrix(
+        sp.Matrix.vstack(velocities.jacobian(variables), acceleration_rows, internal_rows)
+    )
 
 
 def force_power(energies: Energies, coordinates: tuple[TimeDependent, ...]) -> sp.Expr:
@@ -348,7 +373,9 @@ def equations_of_motion(model: Membrane, load_case: LoadCase) -> EquationsOfMoti
     forces = force_terms(kinetic, energies, coordinates, remark)
     rates = internal_rates(model, load_case, substitution)
     force = sum((term.vector for term in forces), sp.zeros(len(coordinates), 1))
-    unbalanced = unbalanced_jacobian(mass, force, load_case)
+    state, inputs = state_of(load_case), load_case.inputs
+    unbalanced = unbalanced_jacobian(mass, force, load_case, state)
+    unbalanced_by_inputs = unbalanced_jacobian(mass, force, load_case, inputs)
     return EquationsOfMotion(
         membrane=model,
         load_case=load_case,
@@ -363,8 +390,11 @@ def equations_of_motion(model: Membrane, load_case: LoadCase) -> EquationsOfMoti
         internal_rates=rates,
         reaction_forces=static if load_case.formulation == REACTION_IN_POTENTIAL else reactions,
         static_reaction_forces=static,
+        edge_forces=edge_forces(model, substitution),
         force_power=force_power(energies, coordinates),
         dissipation=dissipation(model, load_case, substitution),
         unbalanced_jacobian=unbalanced,
-        jacobian=first_order_jacobian(mass, unbalanced, rates, load_case),
+        jacobian=first_order_jacobian(mass, unbalanced, rates, load_case, state),
+        unbalanced_input_jacobian=unbalanced_by_inputs,
+        input_jacobian=first_order_jacobian(mass, unbalanced_by_inputs, rates, load_case, inputs),
     )

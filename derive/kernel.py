@@ -152,6 +152,40 @@ def _jacobian(eom: EquationsOfMotion) -> KernelFunction:
     )
 
 
+def _input_jacobian(eom: EquationsOfMotion) -> KernelFunction:
+    """Rows of the accelerations through the mass matrix by name."""
+    n = eom.mass_matrix.rows
+    forces, force_slopes = _slopes(
+        "input_slope",
+        eom.unbalanced_input_jacobian,
+        "slope of (net force - mass matrix times acceleration), [J] per unit of the input",
+    )
+    outer = eom.input_jacobian
+    rows = sp.Matrix.vstack(sp.Matrix(outer[:n, :]), _solved(n, force_slopes), sp.Matrix(outer[2 * n :, :]))
+    return kernel_function(
+        eom,
+        "input_jacobian",
+        "Derivative of `rhs` with respect to the inputs; entry [i, j] is d rhs_i / d input_j.",
+        "per second, times the unit of state i over that of input j",
+        outer.shape,
+        (*_mass_assignments(eom), *_determinant_assignment(n), *forces),
+        list(rows),
+    )
+
+
+def _edge_forces(eom: EquationsOfMotion) -> KernelFunction:
+    names = ("edge_force_1", "edge_force_2")
+    return kernel_function(
+        eom,
+        "edge_forces",
+        "Force on each edge normal to axes 1 and 2 that balances springs and field at rest, pulling if positive.",
+        "N",
+        (2,),
+        [Assignment(name, force) for name, force in zip(names, eom.edge_forces, strict=True)],
+        [sp.Symbol(name) for name in names],
+    )
+
+
 def _reactions(eom: EquationsOfMotion) -> tuple[KernelFunction, ...]:
     reactions = eom.load_case.reactions
     if not reactions:
@@ -274,12 +308,14 @@ def kernel(eom: EquationsOfMotion, verdicts: tuple[Verdict, ...]) -> KernelSpec:
     functions = (
         _rhs(eom),
         _jacobian(eom),
+        _input_jacobian(eom),
         _mass(eom),
         _scalar(eom, "kinetic_energy", "Kinetic energy.", "J", eom.kinetic_energy),
         _potential(eom),
         _scalar(eom, "force_power", "Power that the applied forces put in.", "W", eom.force_power),
         _dashpot_power(eom),
         *_reactions(eom),
+        _edge_forces(eom),
         kernel_function(
             eom,
             "principal_stretches", "Stretches along axes 1, 2 and through the thickness.", "1", (3,), (),

@@ -24,12 +24,14 @@ class LambdifiedModel:
 
     rhs: Function
     jacobian: Function
+    input_jacobian: Function
     mass_matrix: Function
     kinetic_energy: Function
     potential_energy: Function
     force_power: Function
     dashpot_power: Function
     reaction_forces: Function
+    edge_forces: Function
     principal_stretches: Function
 
 
@@ -52,11 +54,13 @@ def lambdified(eom: EquationsOfMotion) -> LambdifiedModel:
     return LambdifiedModel(
         rhs=column([*velocities, *accelerations.values(), *eom.internal_rates]),
         jacobian=function(eom.jacobian),
+        input_jacobian=function(eom.input_jacobian),
         mass_matrix=function(eom.mass_matrix),
         kinetic_energy=function(eom.kinetic_energy),
         potential_energy=function(eom.potential_energy),
         force_power=function(eom.force_power),
         dashpot_power=function(eom.dashpot_power),
         reaction_forces=column(eom.reaction_forces),
+        edge_forces=column(eom.edge_forces),
         principal_stretches=column(eom.principal_stretches),
     )

@@ -6,6 +6,8 @@ from dataclasses import dataclass, field
 
 import sympy as sp
 
+from delagrange.derive.kernel_spec import Assignment
+
 
 @dataclass
 class Constants:
@@ -16,6 +18,10 @@ class Constants:
 
     still: frozenset[sp.Symbol]  # symbols that do not move
     values: dict[sp.Expr, sp.Symbol] = field(default_factory=dict)
+
+    def assignments(self) -> tuple[Assignment, ...]:
+        """What the names stand for, in the order in which they were given."""
+        return tuple(Assignment(name.name, value) for value, name in self.values.items())
 
     def fold(self, expression: sp.Expr) -> sp.Expr:
         """The expression with its constant parts replaced by names."""

@@ -18,7 +18,8 @@ class Rows:
     meaning: str
 
 
-def _placed(entries: Iterable[tuple[str, int, str]]) -> tuple[Rows, ...]:
+def placed(entries: Iterable[tuple[str, int, str]]) -> tuple[Rows, ...]:
+    """Rows one after the other, from (name, count, meaning)."""
     rows, start = [], 0
     for name, count, meaning in entries:
         rows.append(Rows(name, start, count, meaning))
@@ -34,7 +35,7 @@ def total(rows: tuple[Rows, ...]) -> int:
 def work_rows(spec: LaneSpec, stages: int) -> tuple[Rows, ...]:
     """Rows of the work array of a kernel whose interpolant needs `stages` stages."""
     n, q, inputs = len(spec.model.state), spec.model.coordinate_count, len(spec.model.inputs)
-    return _placed(
+    return placed(
         [
             ("FIFTH", 1, "sum of squares of the error estimate of order 5"),
             ("THIRD", 1, "of that of order 3"),
@@ -93,7 +94,7 @@ def work_rows(spec: LaneSpec, stages: int) -> tuple[Rows, ...]:
 
 def table_rows(spec: LaneSpec) -> tuple[Rows, ...]:
     """Rows of what a trajectory is made of."""
-    return _placed(
+    return placed(
         [
             ("FIRST_CONSTANT", len(spec.constants), "what `constants` returns"),
             ("FIRST_STATE", len(spec.model.state), "at t = 0"),
@@ -106,7 +107,7 @@ def table_rows(spec: LaneSpec) -> tuple[Rows, ...]:
 def result_rows(spec: LaneSpec) -> tuple[Rows, ...]:
     """Rows of what is kept of a trajectory."""
     n, q = len(spec.model.state), spec.model.coordinate_count
-    return _placed(
+    return placed(
         [
             ("MAXIMUM", q, "of each coordinate in the window [1]"),
             ("MINIMUM", q, ""),

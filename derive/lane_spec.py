@@ -1,22 +1,11 @@
-"""From the description of a module to that of an ensemble kernel: many trajectories side by side.
-
-The same expressions as in the module, arranged for speed: what does not move is computed once a
-trajectory, products are shared, and an evaluation divides once.
-"""
+"""From the description of a module to that of an ensemble kernel: many trajectories side by side."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
-import sympy as sp
-
+from delagrange.derive.arranged import arranged, constants_for, operations_of, volume_of
 from delagrange.derive.kernel_spec import Assignment, KernelFunction, KernelSpec
-from delagrange.derive.lane_constants import Constants
-from delagrange.derive.operations import operations
-from delagrange.derive.products import share_products
-from delagrange.derive.reciprocals import denominators, share_division, without_division
-from delagrange.derive.shared import share_subexpressions
 
 
 @dataclass(frozen=True)
@@ -34,175 +23,9 @@ class LaneSpec:
 def lane_spec(spec: KernelSpec) -> LaneSpec:
     """Describe the ensemble kernel of a model."""
     functions = {function.name: function for function in spec.functions}
-    volume = next(a for a in functions["rhs"].assignments if a.name == "volume")
-    still = frozenset(sp.Symbol(p.name) for p in spec.parameters) | _symbols_named("volume", functions["rhs"])
-    constants = Constants(still)
-    rates = _arranged(functions["rhs"], spec, constants)
-    principal = _arranged(functions["principal_stretches"], spec, constants)
-    named = tuple(Assignment(name.name, value) for value, name in constants.values.items())
-    return LaneSpec(spec, volume, named, rates, principal, _operations(rates))
-
-
-def _operations(function: KernelFunction) -> int:
-    return operations((*(a.expression for a in function.assignments), *function.outputs))
-
-
-def _symbols_named(name: str, function: KernelFunction) -> frozenset[sp.Symbol]:
-    """The symbol of that name as the function's expressions know it, with its assumptions."""
-    free = (a.expression.free_symbols for a in function.assignments)
-    return frozenset(symbol for symbols in free for symbol in symbols if symbol.name == name)
-
-
-def _arranged(function: KernelFunction, spec: KernelSpec, constants: Constants) -> KernelFunction:
-    """The function with one division, shared products and named constants."""
-    kept, outputs = _without_helpers(function)
-    kept, outputs, below = _simple_denominators(kept, outputs)
-    below, kept, outputs = _mapped(constants.fold, below, _used(kept, outputs), outputs)
-    bases = denominators(_expressions((kept, outputs)))
-    kept, outputs = _mapped(without_division, kept, outputs)
-    common, (kept, outputs) = _common_sums(constants, kept, outputs)
-    pairs, expressions = share_products(tuple(_expressions((below, common, kept, outputs))))
-    below, common, kept, outputs = _refilled((below, common, kept, outputs), expressions)
-    given = frozenset(entry.name for entry in (*spec.state, *spec.inputs)) | _names(constants)
-    early, late = _split(pairs, given)
-    division = _helpers(share_division(bases), "one division for all denominators")
-    assignments = (
-        *_helpers(early, "products"),
-        *below,
-        *division,
-        *_helpers(late, "products of what that gave"),
-        *common,
-        *kept,
+    constants = constants_for(spec)
+    rates = arranged(functions["rhs"], spec, constants)
+    principal = arranged(functions["principal_stretches"], spec, constants)
+    return LaneSpec(
+        spec, volume_of(functions["rhs"]), constants.assignments(), rates, principal, operations_of(rates)
     )
-    ordered = _in_order(_used(assignments, outputs), given)
-    return KernelFunction(function.name, function.summary, function.unit, function.shape, ordered, outputs)
-
-
-def _without_helpers(function: KernelFunction) -> tuple[tuple[Assignment, ...], tuple[sp.Expr, ...]]:
-    """The assignments that mean something, with every helper but the volume written out."""
-    written_out: dict[sp.Expr, sp.Expr] = {}
-    kept = []
-    for assignment in function.assignments:
-        expression = assignment.expression.xreplace(written_out)
-        if not assignment.helper:
-            kept.append(_changed(assignment, expression))
-        elif assignment.name != "volume":
-            written_out[sp.Symbol(assignment.name)] = expression
-    return tuple(kept), tuple(output.xreplace(written_out) for output in function.outputs)
-
-
-def _simple_denominators(
-    kept: tuple[Assignment, ...], outputs: tuple[sp.Expr, ...]
-) -> tuple[tuple[Assignment, ...], tuple[sp.Expr, ...], tuple[Assignment, ...]]:
-    """Write every denominator that is not a variable as a polynomial over a product of powers.
-
-    Returns:
-        The assignments and outputs with those denominators by name, and what the names stand for.
-    """
-    definitions = {sp.Symbol(a.name): a.expression for a in kept}
-    compound = [
-        base
-        for base in denominators((*(a.expression for a in kept), *outputs))
-        if base in definitions or not base.is_Symbol
-    ]
-    replaced, below = {}, []
-    for base in compound:
-        above, under = _fraction(_written_out(base, definitions))
-        name = sp.Symbol(f"{base.name if base.is_Symbol else f'denominator_{len(below) + 1}'}_numerator")
-        below.append(Assignment(name.name, above, "" if below else "denominators, cleared of fractions"))
-        replaced[1 / base] = under / name
-    kept = tuple(_changed(a, a.expression.xreplace(replaced)) for a in kept)
-    return kept, tuple(output.xreplace(replaced) for output in outputs), tuple(below)
-
-
-def _written_out(expression: sp.Expr, definitions: dict[sp.Symbol, sp.Expr]) -> sp.Expr:
-    while expression.free_symbols & set(definitions):
-        expression = expression.xreplace(definitions)
-    return expression
-
-
-def _fraction(expression: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
-    """Numerator, with all constants in it, and denominator, a product of powers."""
-    above, below = sp.fraction(sp.cancel(expression))
-    number, below = below.as_coeff_Mul()
-    return sp.expand(above / number), below
-
-
-def _changed(assignment: Assignment, expression: sp.Expr) -> Assignment:
-    return Assignment(assignment.name, expression, assignment.comment, assignment.helper)
-
-
-Group = tuple[Assignment, ...] | tuple[sp.Expr, ...]
-
-
-def _expressions(groups: Iterable[Group]) -> list[sp.Expr]:
-    return [item.expression if isinstance(item, Assignment) else item for group in groups for item in group]
-
-
-def _refilled(groups: tuple[Group, ...], expressions: Iterable[sp.Expr]) -> tuple[Group, ...]:
-    """The groups with their expressions replaced, in order."""
-    given = iter(expressions)
-    return tuple(
-        tuple(_changed(item, next(given)) if isinstance(item, Assignment) else next(given) for item in group)
-        for group in groups
-    )
-
-
-def _mapped(change: Callable[[sp.Expr], sp.Expr], *groups: Group) -> tuple[Group, ...]:
-    return _refilled(groups, [change(expression) for expression in _expressions(groups)])
-
-
-def _names(constants: Constants) -> frozenset[str]:
-    return frozenset(name.name for name in constants.values.values())
-
-
-def _common_sums(constants: Constants, *groups: Group) -> tuple[tuple[Assignment, ...], tuple[Group, ...]]:
-    later = frozenset(item.name for group in groups for item in group if isinstance(item, Assignment))
-    pairs, expressions = share_subexpressions(
-        tuple(_expressions(groups)), _names(constants), later, worth=1, sums_only=True
-    )
-    return _helpers(pairs, "shared by what follows"), _refilled(groups, expressions)
-
-
-Pairs = tuple[tuple[str, sp.Expr], ...]
-
-
-def _split(pairs: Pairs, given: frozenset[str]) -> tuple[Pairs, Pairs]:
-    """The pairs that need nothing but what is given, and the others."""
-    known, early, late = set(given), [], []
-    for name, product in pairs:
-        if {symbol.name for symbol in product.free_symbols} <= known:
-            known.add(name)
-            early.append((name, product))
-        else:
-            late.append((name, product))
-    return tuple(early), tuple(late)
-
-
-def _in_order(assignments: tuple[Assignment, ...], given: frozenset[str]) -> tuple[Assignment, ...]:
-    """The assignments with each after what it needs, else in the order they have."""
-    known, waiting, ordered = set(given), list(assignments), []
-    while waiting:
-        ready = next(a for a in waiting if {symbol.name for symbol in a.expression.free_symbols} <= known)
-        waiting.remove(ready)
-        known.add(ready.name)
-        ordered.append(ready)
-    return tuple(ordered)
-
-
-def _helpers(pairs: Iterable[tuple[str, sp.Expr]], comment: str) -> tuple[Assignment, ...]:
-    return tuple(
-        Assignment(name, expression, "" if number else comment, helper=True)
-        for number, (name, expression) in enumerate(pairs)
-    )
-
-
-def _used(assignments: tuple[Assignment, ...], outputs: tuple[sp.Expr, ...]) -> tuple[Assignment, ...]:
-    """The assignments that something needs."""
-    needed = {symbol.name for output in outputs for symbol in output.free_symbols}
-    used = []
-    for assignment in reversed(assignments):
-        if assignment.name in needed:
-            used.append(assignment)
-            needed |= {symbol.name for symbol in assignment.expression.free_symbols}
-    return tuple(reversed(used))

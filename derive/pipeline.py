@@ -14,6 +14,7 @@ from delagrange.derive.derived_equations import (
 )
 from delagrange.derive.emit import emit
 from delagrange.derive.emit_lanes import emit_lanes
+from delagrange.derive.emit_variational import emit_variational
 from delagrange.derive.euler_lagrange import EquationsOfMotion, equations_of_motion
 from delagrange.derive.kernel import kernel
 from delagrange.derive.kernel_spec import KernelSpec
@@ -22,6 +23,7 @@ from delagrange.derive.load_cases import BIAXIAL, EMITTED, LoadCase
 from delagrange.derive.membrane import Membrane, membrane
 from delagrange.derive.published.sheng_2015 import SHENG_2015
 from delagrange.derive.strain_energy import neo_hookean
+from delagrange.derive.variational_spec import variational_spec
 from delagrange.derive.verdict import Verdict
 from delagrange.derive.verify import verify
 
@@ -73,10 +75,11 @@ def walk() -> Walked:
 
 
 def emitted(spec: KernelSpec) -> tuple[tuple[str, str], ...]:
-    """File name and text of what is emitted for a model: its NumPy module and its compiled ensemble kernel."""
+    """File name and text of what is emitted for a model: its NumPy module and its two compiled kernels."""
     return (
         (f"{spec.name}.py", emit(spec)),
         (f"{spec.name}_lanes.py", emit_lanes(lane_spec(spec))),
+        (f"{spec.name}_variational.py", emit_variational(variational_spec(spec))),
     )
 
 

@@ -301,6 +301,32 @@ def jacobian(state, inputs, parameters):
     )
 
 
+def input_jacobian(state, inputs, parameters):
+    """Derivative of `rhs` with respect to the inputs; entry [i, j] is d rhs_i / d input_j.
+
+    Returns:
+        Array (4, 2, ...) [per second, times the unit of state i over that of input j].
+    """
+    stretch, _, _, _ = state
+    _, nominal_electric_field = inputs
+    half_length, half_thickness, density, permittivity, _, _, _, held_stretch = parameters
+    # volume of the membrane [m^3]
+    volume = 8 * half_length**2 * half_thickness
+    # powers of the state
+    inverse_stretch = 1 / stretch
+    inverse_stretch_pow2 = inverse_stretch * inverse_stretch
+    inverse_stretch_pow4 = inverse_stretch_pow2 * inverse_stretch_pow2
+    # mass matrix [kg m^2]
+    mass = (density * volume / 3) * (
+        half_length**2
+        + half_thickness**2 * inverse_stretch_pow4 / held_stretch**2
+    )
+    # slope of (net force - mass matrix times acceleration), [J] per unit of the input
+    input_slope_1_1 = 2 * half_length
+    input_slope_1_2 = 2 * held_stretch**2 * nominal_electric_field * permittivity * stretch * volume
+    return _stack((4, 2), 0, 0, input_slope_1_1 / mass, input_slope_1_2 / mass, 0, 0, 0, 0)
+
+
 def mass_matrix(state, inputs, parameters):
     """Mass matrix of the coordinates.
 
@@ -493,6 +519,56 @@ def reaction_forces(state, inputs, parameters):
         - inverse_stretch_pow2 * shear_modulus_alpha / held_stretch**3
     )
     return _stack((1,), reaction_force_2)
+
+
+def edge_forces(state, inputs, parameters):
+    """Force on each edge normal to axes 1 and 2 that balances springs and field at rest, pulling if positive.
+
+    Returns:
+        Array (2, ...) [N].
+    """
+    stretch, _, inelastic_stretch, inelastic_stretch_2 = state
+    _, nominal_electric_field = inputs
+    (
+        half_length,
+        half_thickness,
+        _,
+        permittivity,
+        shear_modulus_alpha,
+        shear_modulus_beta,
+        _,
+        held_stretch,
+    ) = parameters
+    # powers of the state
+    inelastic_stretch_pow2 = inelastic_stretch * inelastic_stretch
+    inverse_inelastic_stretch = 1 / inelastic_stretch
+    inverse_inelastic_stretch_pow2 = inverse_inelastic_stretch * inverse_inelastic_stretch
+    inelastic_stretch_2_pow2 = inelastic_stretch_2 * inelastic_stretch_2
+    inverse_inelastic_stretch_2 = 1 / inelastic_stretch_2
+    inverse_inelastic_stretch_2_pow2 = inverse_inelastic_stretch_2 * inverse_inelastic_stretch_2
+    stretch_pow2 = stretch * stretch
+    inverse_stretch = 1 / stretch
+    inverse_stretch_pow2 = inverse_stretch * inverse_stretch
+    inverse_stretch_pow3 = inverse_stretch * inverse_stretch_pow2
+    # shared by what follows
+    shared_1 = inelastic_stretch_2_pow2 * inelastic_stretch_pow2 * shear_modulus_beta
+    shared_2 = nominal_electric_field**2 * permittivity
+    shared_3 = inverse_stretch_pow2 / held_stretch**3
+    edge_force_1 = 4 * half_length * half_thickness * (
+        -held_stretch**2 * shared_2 * stretch
+        + inverse_inelastic_stretch_pow2 * shear_modulus_beta * stretch
+        + shear_modulus_alpha * stretch
+        - inverse_stretch_pow3 * shared_1 / held_stretch**2
+        - inverse_stretch_pow3 * shear_modulus_alpha / held_stretch**2
+    )
+    edge_force_2 = 4 * half_length * half_thickness * (
+        held_stretch * inverse_inelastic_stretch_2_pow2 * shear_modulus_beta
+        - held_stretch * shared_2 * stretch_pow2
+        + held_stretch * shear_modulus_alpha
+        - shared_1 * shared_3
+        - shared_3 * shear_modulus_alpha
+    )
+    return _stack((2,), edge_force_1, edge_force_2)
 
 
 def principal_stretches(state, inputs, parameters):

@@ -450,6 +450,62 @@ def jacobian(state, inputs, parameters):
     )
 
 
+def input_jacobian(state, inputs, parameters):
+    """Derivative of `rhs` with respect to the inputs; entry [i, j] is d rhs_i / d input_j.
+
+    Returns:
+        Array (6, 2, ...) [per second, times the unit of state i over that of input j].
+    """
+    stretch_1, stretch_2, _, _, _, _ = state
+    _, nominal_electric_field = inputs
+    half_length, half_thickness, density, permittivity, _, _, _ = parameters
+    # volume of the membrane [m^3]
+    volume = 8 * half_length**2 * half_thickness
+    # powers of the state
+    stretch_1_pow2 = stretch_1 * stretch_1
+    inverse_stretch_1 = 1 / stretch_1
+    inverse_stretch_1_pow2 = inverse_stretch_1 * inverse_stretch_1
+    inverse_stretch_1_pow3 = inverse_stretch_1 * inverse_stretch_1_pow2
+    inverse_stretch_1_pow4 = inverse_stretch_1 * inverse_stretch_1_pow3
+    stretch_2_pow2 = stretch_2 * stretch_2
+    inverse_stretch_2 = 1 / stretch_2
+    inverse_stretch_2_pow2 = inverse_stretch_2 * inverse_stretch_2
+    inverse_stretch_2_pow3 = inverse_stretch_2 * inverse_stretch_2_pow2
+    inverse_stretch_2_pow4 = inverse_stretch_2 * inverse_stretch_2_pow3
+    # shared by what follows
+    shared_1 = 2 * nominal_electric_field * permittivity * volume
+    # mass matrix [kg m^2]
+    mass_11 = (density * volume / 3) * (
+        half_length**2
+        + half_thickness**2 * inverse_stretch_1_pow4 * inverse_stretch_2_pow2
+    )
+    mass_12 = density * half_thickness**2 * inverse_stretch_1_pow3 * inverse_stretch_2_pow3 * volume / 3
+    mass_22 = (density * volume / 3) * (
+        half_length**2
+        + half_thickness**2 * inverse_stretch_1_pow2 * inverse_stretch_2_pow4
+    )
+    mass_determinant = mass_11 * mass_22 - mass_12**2
+    # slope of (net force - mass matrix times acceleration), [J] per unit of the input
+    input_slope_1_1 = 2 * half_length
+    input_slope_1_2 = shared_1 * stretch_1 * stretch_2_pow2
+    input_slope_2_2 = shared_1 * stretch_1_pow2 * stretch_2
+    return _stack(
+        (6, 2),
+        0,
+        0,
+        0,
+        0,
+        input_slope_1_1 * mass_22 / mass_determinant,
+        (input_slope_1_2 * mass_22 - input_slope_2_2 * mass_12) / mass_determinant,
+        -input_slope_1_1 * mass_12 / mass_determinant,
+        (-input_slope_1_2 * mass_12 + input_slope_2_2 * mass_11) / mass_determinant,
+        0,
+        0,
+        0,
+        0,
+    )
+
+
 def mass_matrix(state, inputs, parameters):
     """Mass matrix of the coordinates.
 
@@ -619,6 +675,50 @@ def dashpot_power(state, inputs, parameters):
         + deviatoric_stress_2 * strain_rate_2
         + deviatoric_stress_3 * strain_rate_3
     )
+
+
+def edge_forces(state, inputs, parameters):
+    """Force on each edge normal to axes 1 and 2 that balances springs and field at rest, pulling if positive.
+
+    Returns:
+        Array (2, ...) [N].
+    """
+    stretch_1, stretch_2, _, _, inelastic_stretch_1, inelastic_stretch_2 = state
+    _, nominal_electric_field = inputs
+    half_length, half_thickness, _, permittivity, shear_modulus_alpha, shear_modulus_beta, _ = parameters
+    # powers of the state
+    inelastic_stretch_1_pow2 = inelastic_stretch_1 * inelastic_stretch_1
+    inverse_inelastic_stretch_1 = 1 / inelastic_stretch_1
+    inverse_inelastic_stretch_1_pow2 = inverse_inelastic_stretch_1 * inverse_inelastic_stretch_1
+    inelastic_stretch_2_pow2 = inelastic_stretch_2 * inelastic_stretch_2
+    inverse_inelastic_stretch_2 = 1 / inelastic_stretch_2
+    inverse_inelastic_stretch_2_pow2 = inverse_inelastic_stretch_2 * inverse_inelastic_stretch_2
+    stretch_1_pow2 = stretch_1 * stretch_1
+    inverse_stretch_1 = 1 / stretch_1
+    inverse_stretch_1_pow2 = inverse_stretch_1 * inverse_stretch_1
+    inverse_stretch_1_pow3 = inverse_stretch_1 * inverse_stretch_1_pow2
+    stretch_2_pow2 = stretch_2 * stretch_2
+    inverse_stretch_2 = 1 / stretch_2
+    inverse_stretch_2_pow2 = inverse_stretch_2 * inverse_stretch_2
+    inverse_stretch_2_pow3 = inverse_stretch_2 * inverse_stretch_2_pow2
+    # shared by what follows
+    shared_1 = inelastic_stretch_1_pow2 * inelastic_stretch_2_pow2 * shear_modulus_beta
+    shared_2 = nominal_electric_field**2 * permittivity
+    edge_force_1 = 4 * half_length * half_thickness * (
+        inverse_inelastic_stretch_1_pow2 * shear_modulus_beta * stretch_1
+        - inverse_stretch_1_pow3 * inverse_stretch_2_pow2 * shared_1
+        - inverse_stretch_1_pow3 * inverse_stretch_2_pow2 * shear_modulus_alpha
+        - shared_2 * stretch_1 * stretch_2_pow2
+        + shear_modulus_alpha * stretch_1
+    )
+    edge_force_2 = 4 * half_length * half_thickness * (
+        inverse_inelastic_stretch_2_pow2 * shear_modulus_beta * stretch_2
+        - inverse_stretch_1_pow2 * inverse_stretch_2_pow3 * shared_1
+        - inverse_stretch_1_pow2 * inverse_stretch_2_pow3 * shear_modulus_alpha
+        - shared_2 * stretch_1_pow2 * stretch_2
+        + shear_modulus_alpha * stretch_2
+    )
+    return _stack((2,), edge_force_1, edge_force_2)
 
 
 def principal_stretches(state, inputs, parameters):

@@ -25,8 +25,8 @@ from delagrange.derive.load_cases import EMITTED
 
 NAMES = tuple(case.name for case in EMITTED)
 FUNCTIONS = (
-    "rhs", "jacobian", "mass_matrix", "kinetic_energy", "potential_energy", "force_power", "dashpot_power",
-    "principal_stretches",
+    "rhs", "jacobian", "input_jacobian", "mass_matrix", "kinetic_energy", "potential_energy", "force_power",
+    "dashpot_power", "edge_forces", "principal_stretches",
 )  # fmt: skip
 
 
@@ -58,8 +58,10 @@ def _scale(function, theirs, parameters):
         "potential_energy": volume * (alpha + beta),
         "dashpot_power": volume * beta**2 / viscosity,
         "reaction_forces": 4 * H * L * (alpha + beta),
+        "edge_forces": 4 * H * L * (alpha + beta),
     }
-    whole = np.max(np.abs(theirs)) if function in ("jacobian", "rhs") else np.abs(theirs)
+    by_column = {"jacobian": None, "rhs": None, "input_jacobian": 0}
+    whole = np.max(np.abs(theirs), by_column[function]) if function in by_column else np.abs(theirs)
     return np.maximum(whole, floors.get(function, 0.0))
 
 
@@ -106,6 +108,48 @@ def test_jacobian_is_the_complex_step_derivative(name, rng):
         found = module.jacobian(state, inputs, parameters)
         scale = np.abs(found).max(axis=1, keepdims=True)
         assert np.all(np.abs(found - np.transpose(columns)) <= 1e-12 * scale)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_input_jacobian_is_the_complex_step_derivative(name, rng):
+    module = module_of(name)
+    for _ in range(20):
+        state, inputs, parameters = random_state(module, rng), random_inputs(rng), parameters_of(module)
+        found = module.input_jacobian(state, inputs, parameters)
+        for column, size in enumerate((1.0, 1e6)):
+            step = 1e-200 * size
+            moved = [value + 1j * step * (place == column) for place, value in enumerate(inputs)]
+            expected = module.rhs(state, moved, parameters).imag / step
+            assert np.max(np.abs(expected)) > 0
+            assert np.all(np.abs(found[:, column] - expected) <= 1e-12 * np.max(np.abs(expected)))
+
+
+@pytest.mark.parametrize("name", [name for name in NAMES if name != "pure_shear_as_printed"])
+def test_an_applied_force_equal_to_that_on_the_edge_is_balance(name, rng):
+    """Axis 1 has its force; in the uniaxial membrane axis 2 is left with what would have to hold it."""
+    module = module_of(name)
+    for _ in range(20):
+        state, parameters = random_state(module, rng), parameters_of(module, rng.uniform(0.8, 4.0))
+        n, lever = module.COORDINATE_COUNT, 2 * parameters[0]
+        state[n : 2 * n] = 0.0
+        field = rng.uniform(-6e6, 6e6)
+        along, across = module.edge_forces(state, (0.0, field), parameters)
+        inputs = (along, field)
+        balance = (
+            module.mass_matrix(state, inputs, parameters) @ module.rhs(state, inputs, parameters)[n : 2 * n]
+        )
+        np.testing.assert_allclose(balance, (0.0, -lever * across)[:n], rtol=0, atol=1e-11 * lever)
+
+
+@pytest.mark.parametrize("name", ["pure_shear_consistent", "pure_shear_consistent_free"])
+def test_at_rest_the_reaction_is_the_edge_force(name, rng):
+    module = module_of(name)
+    for _ in range(20):
+        state, parameters = random_state(module, rng), parameters_of(module, rng.uniform(0.8, 4.0))
+        state[1], field = 0.0, rng.uniform(-6e6, 6e6)
+        along, across = module.edge_forces(state, (0.0, field), parameters)
+        (reaction,) = module.reaction_forces(state, (along, field), parameters)
+        assert reaction == pytest.approx(across, rel=1e-9, abs=1e-9)
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -251,6 +295,7 @@ def test_the_same_text_under_any_hash_seed():
     )
     assert all(f'"""{module_of(name).__doc__[:40]}'.encode() in first for name in NAMES)
     assert first.count(b"\nMany trajectories side by side, compiled: ") == len(NAMES)
+    assert first.count(b"\nOne trajectory with its variational equations, compiled: ") == len(NAMES)
     assert first == second
 
 
@@ -276,7 +321,7 @@ def test_a_checked_in_module_is_what_the_derivation_emits(equations, tmp_path):
 
     eom = equations("uniaxial")
     modules = pipeline.emitted(kernel(eom, verify(eom, SHENG_2015)))
-    assert [name for name, _ in modules] == ["uniaxial.py", "uniaxial_lanes.py"]
+    assert [name for name, _ in modules] == ["uniaxial.py", "uniaxial_lanes.py", "uniaxial_variational.py"]
     folder = Path(str(resources.files("delagrange.generated")))
     assert pipeline.stale(modules, folder) == ()
     pipeline.write(modules, tmp_path)

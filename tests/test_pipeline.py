@@ -52,7 +52,11 @@ def only_line(text):
 
 
 def test_the_walk_covers_every_model_once(walked):
-    names = [f"{eom.load_case.name}{kind}.py" for eom in walked.models[1:] for kind in ("", "_lanes")]
+    names = [
+        f"{eom.load_case.name}{kind}.py"
+        for eom in walked.models[1:]
+        for kind in ("", "_lanes", "_variational")
+    ]
     assert names == [name for name, _ in walked.modules]
     assert {verdict.model for verdict in walked.verdicts} == {eom.load_case.name for eom in walked.models}
 

@@ -1,9 +1,10 @@
-"""The compiled ensemble kernels by model: found, compiled, kept on disk."""
+"""The compiled kernels by model: found, compiled, kept on disk."""
 
 from __future__ import annotations
 
 import gc
 import os
+import sys
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -14,12 +15,14 @@ from types import ModuleType
 
 import numpy as np
 
+LANES, VARIATIONAL = "lanes", "variational"  # kinds of kernels, and the last word of their modules' names
 
-def kernel_name(model: ModuleType) -> str | None:
-    """Name of the compiled kernel that stands beside the module of a model, or None where there is none."""
-    name = f"{model.__name__}_lanes"
+
+def kernel_name(model: ModuleType, kind: str = LANES) -> str | None:
+    """Name of the compiled kernel of a kind that stands beside the module of a model, or None where there is none."""
+    name = f"{model.__name__}_{kind}"
     try:
-        return name if find_spec(name) is not None else None
+        return name if name in sys.modules or find_spec(name) is not None else None
     except (ImportError, ValueError):  # a module that is not in a package, or not from a file
         return None
 
@@ -73,14 +76,17 @@ def _no_collection() -> Iterator[None]:
 
 
 def _compile(kernel: ModuleType) -> bool:
-    """Compile the kernel by integrating no trajectory; whether the machine code is kept on disk."""
+    """Compile the kernel by giving it nothing to do; whether the machine code is kept on disk."""
+    variational = hasattr(kernel, "travel")
+    use = travel_nowhere if variational else integrate_nothing
+    entry = kernel.travel if variational else kernel.integrate
     try:
-        integrate_nothing(kernel)
+        use(kernel)
     except OSError:  # a folder that was found, and that cannot be read or written after all
-        kernel.integrate._cache = import_module("numba.core.caching").NullCache()
-        integrate_nothing(kernel)
+        entry._cache = import_module("numba.core.caching").NullCache()
+        use(kernel)
         return False
-    return kernel.integrate.stats.cache_path is not None
+    return entry.stats.cache_path is not None
 
 
 def integrate_nothing(kernel: ModuleType) -> None:
@@ -98,4 +104,23 @@ def integrate_nothing(kernel: ModuleType) -> None:
         np.zeros((0, kernel.STATE_COUNT, 0)),
         np.zeros(1),
         np.zeros(1, dtype=np.int8),
+    )
+
+
+def travel_nowhere(kernel: ModuleType) -> None:
+    """Call the kernel with arrays of the right types and a single time."""
+    size, coordinates = kernel.STATE_COUNT, kernel.COORDINATE_COUNT
+    frame = np.zeros(kernel.COLUMN)
+    frame[kernel.WEIGHT : kernel.WEIGHT + size] = 1.0
+    kernel.travel(
+        np.zeros(1),
+        np.zeros((0, 2), dtype=np.int64),
+        False,
+        0,
+        frame,
+        np.zeros(size + 1),
+        np.zeros((1, size)),
+        np.zeros((0, 0)),
+        np.zeros(1),
+        np.zeros((2, coordinates)),
     )
