@@ -98,6 +98,51 @@ def _repeat(times: int, run: Callable[[], object]) -> None:
         run()
 
 
+def steady_response(quick: bool) -> dict:
+    """Time [s] of a curve of 400 points (one branch, both ways from one start), and how many it has in all."""
+    import delagrange
+    from benchmarks.timing import one_core, timed
+
+    with one_core():
+        time, found = timed(
+            lambda: delagrange.steady_response(
+                "equal_biaxial", force=0.5, field_amplitude=1e6, frequency=(100.0, 800.0),
+                most_points=40 if quick else 400,
+            )
+        )  # fmt: skip
+    return {"time": time, "size": int(found.sizes["point"])}
+
+
+def lyapunov_spectrum(quick: bool) -> dict:
+    """Time [s] of the spectrum of the uniaxial membrane at 424 Hz, and the time followed [s]."""
+    import delagrange
+    from benchmarks.timing import one_core, timed
+
+    duration = 2.0 if quick else 20.0
+    with one_core():
+        time, _ = timed(
+            lambda: delagrange.lyapunov_spectrum(
+                "uniaxial", force=0.5, field=delagrange.Sine(5e6, 424.0), duration=duration
+            )
+        )
+    return {"time": time, "size": duration}
+
+
+def kinds(quick: bool) -> dict:
+    """Time [s] of all verdicts on two processes, and how many there are."""
+    import tempfile
+    from pathlib import Path
+
+    from benchmarks.timing import timed
+    from delagrange.reproduction.all_runs import run_all
+    from delagrange.reproduction.runs import kind_jobs
+
+    wanted = kind_jobs()[:1] if quick else kind_jobs()
+    with tempfile.TemporaryDirectory() as folder:
+        time, runs = timed(lambda: run_all(wanted, Path(folder)))
+    return {"time": time, "size": sum(one.sizes["frequency"] for one in runs.datasets.values())}
+
+
 def assembly(models: list[str]) -> dict:
     """Arithmetic instructions of the kernels of models, by registers."""
     from benchmarks.vector_width import of_kernels
@@ -141,6 +186,9 @@ TASKS: Mapping[str, Callable[..., dict]] = {
     "imports": imports,
     "threaded": threaded,
     "assembly": assembly,
+    "steady_response": steady_response,
+    "lyapunov_spectrum": lyapunov_spectrum,
+    "kinds": kinds,
 }
 
 if __name__ == "__main__":

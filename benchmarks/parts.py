@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from benchmarks import machine, scaling, vector_width
+from benchmarks import machine, scaling, tangents, understanding, vector_width
 from benchmarks.cases import CASES, Case, spread
 from benchmarks.contestant import refusal
 from benchmarks.contestants import CONTESTANTS, available
@@ -117,6 +117,22 @@ def _compile_time(plan: Plan, keep: Keep) -> None:
     scaling.compile_time(plan.engine, plan.quick, keep)
 
 
+def _tangents(plan: Plan, keep: Keep) -> None:
+    if not has_compiled_engine():
+        keep(_NO_KERNEL)
+        return
+    if find_spec("heyoka") is None:
+        keep({"left_out": "Left out: heyoka, which gives the reference, is not installed."})
+        return
+    models = ("equal_biaxial",) if plan.quick else ("equal_biaxial", "uniaxial")
+    with one_core():
+        tangents.measured(models, QUICK_REPEATS if plan.quick else REPEATS, keep)
+
+
+def _understanding(plan: Plan, keep: Keep) -> None:
+    understanding.measured(plan.quick, keep)
+
+
 PARTS: Mapping[str, Part] = {
     "machine": _machine,
     **{name: _case_part(name) for name in CASES},
@@ -126,6 +142,8 @@ PARTS: Mapping[str, Part] = {
     "threads": _threads,
     "ensembles": _ensembles,
     "compile_time": _compile_time,
+    "tangents": _tangents,
+    "understanding": _understanding,
 }
 
 

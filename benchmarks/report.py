@@ -22,6 +22,8 @@ _PARTS = {
     "threads": sections.threads,
     "ensembles": sections.ensembles,
     "compile_time": sections.compile_time,
+    "tangents": sections.tangents,
+    "understanding": sections.understanding,
 }
 
 

@@ -127,3 +127,42 @@ def compile_time(numbers: dict) -> str:
         "First tiny sweep: from before `import delagrange` to the end of a sweep of one run. Less imports: less the "
         f"time of a process that imports delagrange, numpy and xarray and no more, {imports:.3g} s."
     )
+
+
+def tangents(numbers: dict) -> str:
+    title = "## Tangents by the variational equations\n\n"
+    if "left_out" in numbers:
+        return title + numbers["left_out"]
+    rows = [
+        (model.replace("_", "-"), one["label"], _milliseconds(one["time"]), _times(one["ratio"]))
+        for model, found in numbers["models"].items()
+        for one in found.values()
+    ]
+    return (
+        f"{title}{table(('', 'by', 'time [ms]', 'over ours'), rows)}\n\n"
+        f"The derivative of stretches and rates by those {numbers['periods']} forcing periods before (0.067 s "
+        "under 0.5 N and 1 MV/m at 300 Hz, dashpots frozen), one core, medians, tolerances interleaved; compiling is "
+        f"not counted. At a largest error of {numbers['error']:g} of the largest entry, in units of typical sizes, "
+        "against heyoka at a tolerance of 1e-18."
+    )
+
+
+def _milliseconds(time: float | str) -> str:
+    return time if isinstance(time, str) else f"{1e3 * time:.3g}"
+
+
+def _times(value: float | str) -> str:
+    return value if isinstance(value, str) else f"{value:.3g}"
+
+
+def understanding(numbers: dict) -> str:
+    rows = [
+        (one["text"], f"{one['first']:.2f}", f"{np.median(one['again']):.2f}", one["size"])
+        for one in numbers.values()
+        if isinstance(one, dict)
+    ]
+    heads = ("", "first [s]", "again [s]", "points, seconds of motion, or cases")
+    return (
+        f"## Questions to a motion\n\n{table(heads, rows)}\n\nEach in a fresh process, beyond the start of Python; "
+        "first: with an empty cache of compiled code; again: the median of later ones."
+    )

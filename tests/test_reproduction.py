@@ -22,7 +22,6 @@ from delagrange.reproduction.processes import side_by_side
 from delagrange.reproduction.published_numbers import PEAKS
 from delagrange.reproduction.response_claims import peak_rises, resonance, rising
 from delagrange.reproduction.responses import curve, response
-from delagrange.reproduction.separation import _fit
 from delagrange.reproduction.statements import (
     NO,
     ONLY_AS_PRINTED,
@@ -41,17 +40,6 @@ TIME = np.arange(5001) * SPACING
 
 
 # --- measures -----------------------------------------------------------------------------------------
-
-
-def test_a_closed_curve_has_dimension_one_and_an_area_two(rng):
-    angle = rng.uniform(0, 2 * np.pi, 400)
-    assert measures.correlation_dimension(3 + np.cos(angle), 500 * np.sin(angle)) == pytest.approx(
-        1.0, abs=0.15
-    )
-    radius = np.sqrt(rng.uniform(0, 1, 400))
-    filled = measures.correlation_dimension(radius * np.cos(angle), 500 * radius * np.sin(angle))
-    assert filled == pytest.approx(1.8, abs=0.2)
-    assert filled > measures.CURVE_DIMENSION + 0.2
 
 
 def test_two_near_tones_beat_and_one_does_not():
@@ -90,14 +78,6 @@ def test_spectral_lines_are_found_where_they_are():
         + 0.05 * np.cos(2 * np.pi * 500 * TIME)
     )
     np.testing.assert_allclose(measures.spectral_lines(values, SPACING), [321, 836], atol=2)
-
-
-def test_separation_tells_exponential_from_linear(rng):
-    time = np.linspace(0.002, 1.0, 300)
-    wobble = np.exp(0.3 * rng.standard_normal(300))
-    linear = _fit(time, 1e-7 * (1 + 20 * time) * wobble)
-    assert not linear.exponential and 0.5 < linear.power < 1.2
-    assert _fit(time, 1e-7 * np.exp(15 * time) * wobble).exponential
 
 
 # --- numbers ------------------------------------------------------------------------------------------

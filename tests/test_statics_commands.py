@@ -10,7 +10,7 @@ import xarray as xr
 from gent_membrane import gent_membrane
 
 import delagrange as dl
-from delagrange.analysis.critical_map import FAST, SLOW, SUDDEN, critical_map
+from delagrange.analysis.rest.critical_map import FAST, SLOW, SUDDEN, critical_map
 from delagrange.cli import main
 from delagrange.figures.equilibrium_figure import draw_critical_map, draw_equilibria
 from delagrange.figures.modes_figure import draw_modes

@@ -9,8 +9,16 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from delagrange.analysis.motion.classify import classify
+    from delagrange.analysis.motion.lyapunov import lyapunov_spectrum
     from delagrange.analysis.portrait import phase_portrait
+    from delagrange.analysis.rest.dynamic_pull_in import dynamic_pull_in
+    from delagrange.analysis.rest.equilibria import equilibria
+    from delagrange.analysis.rest.modes import modes
+    from delagrange.analysis.rest.pull_in import pull_in
     from delagrange.analysis.sections import stroboscopic_section
+    from delagrange.analysis.steady.response import steady_response
+    from delagrange.analysis.steady.stepped_sweep import stepped_sweep
     from delagrange.drive import Constant, Drive, Ramp, Sine, Step, Tabulated
     from delagrange.loss import Limits
     from delagrange.models import load_model, model_names
@@ -28,12 +36,20 @@ _HOME = {
     "Sine": "drive",
     "Step": "drive",
     "Tabulated": "drive",
+    "classify": "analysis.motion.classify",
+    "dynamic_pull_in": "analysis.rest.dynamic_pull_in",
+    "equilibria": "analysis.rest.equilibria",
     "frequency_response": "response",
     "load_model": "models",
+    "lyapunov_spectrum": "analysis.motion.lyapunov",
     "model_names": "models",
+    "modes": "analysis.rest.modes",
     "peaks": "response",
     "phase_portrait": "analysis.portrait",
+    "pull_in": "analysis.rest.pull_in",
     "simulate": "simulation",
+    "steady_response": "analysis.steady.response",
+    "stepped_sweep": "analysis.steady.stepped_sweep",
     "stroboscopic_section": "analysis.sections",
 }
 
@@ -47,12 +63,20 @@ __all__ = [
     "Sine",
     "Step",
     "Tabulated",
+    "classify",
+    "dynamic_pull_in",
+    "equilibria",
     "frequency_response",
     "load_model",
+    "lyapunov_spectrum",
     "model_names",
+    "modes",
     "peaks",
     "phase_portrait",
+    "pull_in",
     "simulate",
+    "steady_response",
+    "stepped_sweep",
     "stroboscopic_section",
 ]
 

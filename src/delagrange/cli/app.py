@@ -14,11 +14,24 @@ from typing import Annotated
 import typer
 
 import delagrange
-from delagrange.cli import derive, figures, reproduce, simulate, sweep, verify
+from delagrange.cli import (
+    classify,
+    derive,
+    equilibrium,
+    figures,
+    modes,
+    reproduce,
+    response,
+    simulate,
+    sweep,
+    verify,
+)
 from delagrange.cli.interruption import Interrupted
 
 _COMMANDS = (
-    verify.verify, derive.derive, simulate.simulate, sweep.sweep, figures.figures, reproduce.reproduce,
+    verify.verify, derive.derive, simulate.simulate, sweep.sweep, response.response,
+    equilibrium.equilibrium, modes.modes, classify.classify, figures.figures,
+    reproduce.reproduce,
 )  # fmt: skip
 _BAD_INPUT, _INTERRUPTED = 2, 130
 _UsageError = typer.BadParameter.__base__  # what Typer raises for all that it cannot read

@@ -106,7 +106,7 @@ def equilibrium(
 
 
 def _critical_map(model: str, texts: list[str], common: dict[str, object], quiet: bool) -> xr.Dataset:
-    from delagrange.analysis.critical_map import critical_map
+    from delagrange.analysis.rest.critical_map import critical_map
     from delagrange.progress import working
 
     forces = np.atleast_1d(quantities.axis("map-force", texts, "N"))
@@ -122,7 +122,7 @@ def _equilibria(
     dashpots: str,
     common: dict[str, object],
 ) -> xr.Dataset:
-    from delagrange.analysis.equilibria import equilibria
+    from delagrange.analysis.rest.equilibria import equilibria
 
     fields = quantities.axis("field", field, "V/m")
     voltages = quantities.axis("voltage", voltage, "V")
@@ -133,7 +133,7 @@ def _equilibria(
 
 def _default_fields(model: str, force: float, dashpots: str, common: dict[str, object]) -> np.ndarray:
     """From none to a little beyond where the stable branch ends [V/m]."""
-    from delagrange.analysis.pull_in import pull_in
+    from delagrange.analysis.rest.pull_in import pull_in
 
     highest = float(pull_in(model, force=force, dashpots=dashpots, **common)["highest_field"])
     return np.linspace(0.0, _PAST * highest, _DEFAULT_FIELDS) if highest > 0 else np.zeros(1)

@@ -67,7 +67,7 @@ def modes(
     units = _INPUT_UNITS | dict(CHANGEABLE_UNITS)
     values = {name: quantities.axis(name, context.params[name], unit) for name, unit in units.items()}
     with interruptible("the modes were not finished, nothing was written"):
-        from delagrange.analysis.modes import modes as find_modes
+        from delagrange.analysis.rest.modes import modes as find_modes
 
         found = find_modes(
             model,

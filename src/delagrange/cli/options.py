@@ -347,3 +347,172 @@ OutFile = Annotated[
 ]
 OutFolder = Annotated[Path, _text("DIR", "Folder for the files; made if missing.", _OUTPUT, "--out")]
 Quiet = Annotated[bool, typer.Option("--quiet", help="Show no progress.", rich_help_panel=_OUTPUT)]
+
+# Steady response
+_STEADY = "Steady response"
+_SPAN = "A number, or START:STOP, or START:STOP:STEP, of what varies; one of the load must"
+SpannedForce = Annotated[
+    str | None,
+    _text("N", f"Constant force in N. {_SPAN}.", _FORCE, "--force", default="0 N"),
+]
+SpannedFieldAmplitude = Annotated[
+    str, _text("V/m", f"Amplitude of the sine field, in V/m. {_SPAN}.", _FIELD, "--field-amplitude")
+]
+SpannedFieldBias = Annotated[
+    str | None,
+    _text("V/m", f"Bias of the sine field, in V/m. {_SPAN}.", _FIELD, "--field-bias", default="0 V/m"),
+]
+SpannedFrequency = Annotated[
+    str, _text("Hz", f"Frequency of the sine field, in Hz. {_SPAN}.", _FIELD, "--frequency")
+]
+Steady = Annotated[
+    bool,
+    typer.Option(
+        "--steady",
+        help="Branches of periodic motions, stable and unstable, with Floquet multipliers and bifurcations; without "
+        "it the transient amplitude alone.",
+        rich_help_panel=_STEADY,
+    ),
+]
+SteadyDashpots = Annotated[
+    str | None,
+    _text(
+        "NAME",
+        "Of the periodic motions: 'frozen' in the reference state (or --initial), without any damping, or 'relaxed', "
+        "flowing and periodic with the motion.",
+        _STEADY,
+        "--dashpots",
+        default="frozen",
+    ),
+]
+Sweeps = Annotated[
+    bool,
+    typer.Option(
+        "--sweeps",
+        help="Step the frequency up and down as well, the motion carried on; with --dashpots relaxed.",
+        rich_help_panel=_STEADY,
+    ),
+]
+LargestAmplitude = Annotated[
+    float | None,
+    _number(
+        "1", "Amplitude of the first stretch at which branches end, a pure number.", _STEADY, default="none"
+    ),
+]
+PeriodMultiple = Annotated[
+    int,
+    typer.Option(
+        metavar="COUNT",
+        help="Periods of the forcing in a period of the motion; 2 finds motions of doubled period.",
+        rich_help_panel=_STEADY,
+    ),
+]
+MostPoints = Annotated[
+    int,
+    typer.Option(
+        metavar="COUNT", help="Points of a branch, each way from its start.", rich_help_panel=_STEADY
+    ),
+]
+TransientDuration = Annotated[
+    float,
+    _number(
+        "s",
+        "Time from rest in which the transient amplitude is taken, in s.",
+        _NUMERICS,
+        "--duration",
+        default="0.1 s",
+    ),
+]
+ResponsePlot = Annotated[
+    Path | None, _text("FILE", "Draw the result: .png or .pdf.", _OUTPUT, "--plot", default="none")
+]
+
+# Equilibria and modes
+_STATICS = "At rest"
+StaticForce = Annotated[
+    float, _number("N", "Constant force in N, there before the field.", _FORCE, default="0 N")
+]
+MapForces = Annotated[
+    list[str] | None,
+    _values(
+        "N", "Find the critical field at these forces in N, in place of equilibria", _FORCE, "--map-force"
+    ),
+]
+StaticFields = Annotated[
+    list[str] | None,
+    _values("V/m", "Constant field, in V/m", _FIELD, "--field", default="as described above"),
+]
+Voltages = Annotated[
+    list[str] | None, _values("V", "Constant voltage in V, in place of --field", _FIELD, "--voltage")
+]
+StaticDashpots = Annotated[
+    str,
+    _text(
+        "NAME",
+        "'relaxed': at rest, too; 'frozen' in the reference state or --initial.",
+        _STATICS,
+        "--dashpots",
+    ),
+]
+BreakdownField = Annotated[
+    float | None,
+    _number(
+        "V/m", "True field in V/m that the undeformed material stands.", _STATICS, default="no breakdown"
+    ),
+]
+BreakdownExponent = Annotated[
+    float,
+    _number(
+        "1",
+        "The strength grows with the equal-biaxial stretch to this power, that is the thickness stretch to -1/2 of it.",
+        _STATICS,
+    ),
+]
+SmallestTension = Annotated[
+    float, _number("Pa", "Nominal stress on an edge, in Pa, below which tension counts as lost.", _STATICS)
+]
+PlotFile = Annotated[
+    Path | None, _text("FILE", "Draw the result: .png or .pdf.", _OUTPUT, "--plot", default="none")
+]
+
+# Kind of motion
+_MOTION = "Kind of motion"
+MotionDuration = Annotated[
+    float | None,
+    _number(
+        "s",
+        "Time for which the motion is followed, in s.",
+        _MOTION,
+        "--duration",
+        default="8000 periods of the fastest small vibration, at least 4000 of the forcing",
+    ),
+]
+Transient = Annotated[
+    float | None,
+    _number(
+        "s",
+        "Time that is left out before, in s.",
+        _MOTION,
+        default="none with frozen dashpots, else until transients have died out, if that is not too long",
+    ),
+]
+MotionDashpots = Annotated[
+    str,
+    _text(
+        "NAME",
+        "'frozen' at t = 0; 'evolving' with the motion; 'relaxed': evolving, transients waited for however long "
+        "they are.",
+        _MOTION,
+        "--dashpots",
+    ),
+]
+MotionTolerance = Annotated[
+    float,
+    _number(
+        "1", "Tolerance of the local error, in units of typical sizes of the state.", _NUMERICS, "--tolerance"
+    ),
+]
+MotionFile = Annotated[
+    Path | None,
+    _text("FILE", "Write the result and all its evidence: .nc (NetCDF).", _OUTPUT, "--out", default="none"),
+]

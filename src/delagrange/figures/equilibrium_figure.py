@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import LogLocator, NullFormatter
 
-from delagrange.analysis.critical_map import FAST, SLOW, SUDDEN
+from delagrange.analysis.rest.critical_map import FAST, SLOW, SUDDEN
 from delagrange.figures.style import (
     BLACK,
     BLUE,
@@ -163,7 +163,7 @@ def model_text(data: xr.Dataset) -> str:
 def draw_critical_map(critical: xr.Dataset) -> Figure:
     """The critical field over the force, and the stretch there.
 
-    critical: of `delagrange.analysis.critical_map.critical_map`
+    critical: of `delagrange.analysis.rest.critical_map.critical_map`
     """
     figure = new_figure(height=3.6)
     stretched = bool(critical["stretch"].notnull().any())

@@ -13,13 +13,16 @@ from delagrange.files import prepare_folder
 from delagrange.progress import progress_bar
 from delagrange.reproduction.numerics import ACCURATE
 from delagrange.reproduction.processes import side_by_side
-from delagrange.reproduction.runs import Job, jobs
+from delagrange.reproduction.runs import KINDS, Job, jobs, kind_jobs
 from delagrange.reproduction.store import keep, kept
 
 
 @dataclass(frozen=True)
 class Runs:
-    """Everything computed, by figure, formulation (None where a model has but one) and name of the numerics."""
+    """Everything computed, by figure, formulation (None where a model has but one) and what was found.
+
+    That is the name of the numerics, or "kinds" for the kinds of motion.
+    """
 
     datasets: Mapping[tuple[int, str | None, str], xr.Dataset]
 
@@ -37,18 +40,28 @@ class Runs:
         """Stroboscopic points of Fig. 6, 9 or 12 over (frequency, point), see `motions.section`."""
         return self._of(figure, formulation, ACCURATE.name)
 
-    def _of(self, figure: int, formulation: str | None, numerics: str) -> xr.Dataset:
-        key = (figure, formulation, numerics)
+    def kinds(self, figure: int, formulation: str | None = None) -> xr.Dataset:
+        """Kinds of the motions of Fig. 6, 9 or 12 over frequency, with evidence, see `kinds.kinds`."""
+        return self._of(figure, formulation, KINDS)
+
+    def _of(self, figure: int, formulation: str | None, found: str) -> xr.Dataset:
+        key = (figure, formulation, found)
         if key not in self.datasets:
             known = "; ".join(" ".join(str(part) for part in known if part) for known in self.datasets)
-            raise ValueError(f"no runs of figure {figure}, {formulation}, {numerics}; there are {known}")
+            raise ValueError(f"no runs of figure {figure}, {formulation}, {found}; there are {known}")
         return self.datasets[key]
 
 
 def all_runs(
-    folder: Path, only: tuple[int, ...] | None = None, progress: bool = False, processes: int = 2
+    folder: Path,
+    only: tuple[int, ...] | None = None,
+    progress: bool = False,
+    processes: int = 2,
+    kinds: bool = False,
 ) -> Runs:
     """Compute what Figs. 4-12 (or `only` some) need, each job saved in `folder` as it is done.
+
+    With `kinds`, the kinds of the motions as well.
 
     A job that lies there already, of the same parameters and computed by the same sources, is read and
     not computed again: after an interruption nothing finished is lost.
@@ -56,7 +69,8 @@ def all_runs(
     Raises:
         ValueError: `only` names a figure that is not among Figs. 4-12, or `folder` cannot be written.
     """
-    return run_all(jobs(only), folder, progress, processes)
+    wanted = (*kind_jobs(), *jobs(only)) if kinds else jobs(only)
+    return run_all(wanted, folder, progress, processes)
 
 
 def run_all(wanted: tuple[Job, ...], folder: Path, progress: bool = False, processes: int = 2) -> Runs:
@@ -68,7 +82,7 @@ def run_all(wanted: tuple[Job, ...], folder: Path, progress: bool = False, proce
             done[job] = dataset
             bar.advance_to(len(done))
     ordered = sorted(done, key=lambda job: job.name)
-    return Runs({(job.figure, job.formulation, job.numerics.name): done[job] for job in ordered})
+    return Runs({(job.figure, job.formulation, job.finds): done[job] for job in ordered})
 
 
 def _run_all(wanted: tuple[Job, ...], folder: Path, processes: int) -> Iterator[tuple[Job, xr.Dataset]]:

@@ -1,4 +1,4 @@
-"""What words such as "beating" or "closed loop" mean here, as numbers.
+"""What words such as "beating" or "creep" mean here, as numbers.
 
 Each measure states its definition, so that a reader can disagree with it.
 """
@@ -10,7 +10,6 @@ from scipy.signal import find_peaks
 
 BEATING_DEPTH = 0.5  # of the modulation of what vibrates near the driving frequency; more is a beating, if
 BEATING_SHARE = 0.25  # that is at least this much of the whole swing
-CURVE_DIMENSION = 1.3  # correlation dimension of a section; less is a curve
 SMALL_CREEP = 0.01  # share of the largest strain; less is small
 MODE_PROMINENCE = 0.1  # of a response curve's peak, relative to the range of the curve
 LINE_HEIGHT = 0.1  # of a spectral line, relative to the highest
@@ -35,18 +34,6 @@ def beating(values: np.ndarray, spacing: float, frequency: float) -> tuple[float
     """
     low, high = np.percentile(envelope_near(values, spacing, frequency), [5, 95])
     return float((high - low) / (high + low)), float(high / (np.ptp(values) / 2))
-
-
-def correlation_dimension(first: np.ndarray, second: np.ndarray) -> float:
-    """Slope of the correlation sum of points in the plane, (n_points,) each, between 3 and 30 % of their range.
-
-    1 for a curve, 2 for a filled area. Grassberger and Procaccia (1983), Physica D 9, 189.
-    """
-    points = np.column_stack([(values - values.min()) / np.ptp(values) for values in (first, second)])
-    row, column = np.triu_indices(len(points), 1)
-    distance = np.linalg.norm(points[row] - points[column], axis=1)
-    near, far = np.mean(distance < 0.03), np.mean(distance < 0.3)
-    return float(np.log(far / near) / np.log(10)) if near > 0 else float("nan")
 
 
 def creep_ratio(stretch: np.ndarray, inelastic_stretch: np.ndarray) -> float:

@@ -33,7 +33,7 @@ def reproduce(out: Path, progress: bool = True) -> int:
     verdicts, status = _derive(console)
 
     console.rule("integrate")
-    runs = all_runs(out / "data", progress=progress)
+    runs = all_runs(out / "data", progress=progress, kinds=True)
 
     console.rule("draw")
     figures = draw_figures(runs, out / "figures", progress=progress)

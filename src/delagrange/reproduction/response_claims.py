@@ -7,11 +7,13 @@ from itertools import pairwise
 import numpy as np
 import xarray as xr
 
+from delagrange.analysis.rest.modes import modes
+from delagrange.dashpots import FROZEN
 from delagrange.models import load_model
 from delagrange.parameters import SHENG_2015
 from delagrange.reproduction import measures
 from delagrange.reproduction.all_runs import Runs
-from delagrange.reproduction.cases import RESPONSES, Load
+from delagrange.reproduction.cases import RESPONSES, Load, Panel
 from delagrange.reproduction.claim import Claim
 from delagrange.reproduction.numbers import Found, found_peak
 from delagrange.reproduction.responses import curve
@@ -20,10 +22,12 @@ _RESPONSE = {figure.model: figure for figure in RESPONSES}
 
 
 def _panel_peaks(runs: Runs, model: str, formulation: str | None, letter: str) -> list[Found]:
-    figure = _RESPONSE[model]
-    panel = next(panel for panel in figure.panels if panel.letter == letter)
-    response = runs.response(figure.number, formulation)
-    return [found_peak(response, load) for load in panel.loads]
+    response = runs.response(_RESPONSE[model].number, formulation)
+    return [found_peak(response, load) for load in _panel(model, letter).loads]
+
+
+def _panel(model: str, letter: str) -> Panel:
+    return next(panel for panel in _RESPONSE[model].panels if panel.letter == letter)
 
 
 def rising(values: list[float]) -> bool:
@@ -40,9 +44,32 @@ def resonance(model: str, letter: str, *, rises: bool) -> Claim:
 
     def test(runs: Runs, formulation: str | None) -> tuple[bool, str]:
         peaks = _panel_peaks(runs, model, formulation, letter)
-        return rising([peak.frequency if rises else -peak.frequency for peak in peaks]), _peaks_text(peaks)
+        holds = rising([peak.frequency if rises else -peak.frequency for peak in peaks])
+        return holds, f"{_peaks_text(peaks)}; {_small_vibration_text(model, formulation, letter)}"
 
     return test
+
+
+def _small_vibration_text(model: str, formulation: str | None, letter: str) -> str:
+    """Where small vibrations under the mean load are in resonance, mode by mode along the curves of a panel."""
+    halves = np.transpose(
+        [small_vibration_resonances(model, formulation, load) for load in _panel(model, letter).loads]
+    )
+    each = " and ".join(", ".join(f"{half:.4g}" for half in mode) for mode in halves)
+    return f"small vibrations: f_n/2 = {each} Hz"
+
+
+def small_vibration_resonances(model: str, formulation: str | None, load: Load) -> np.ndarray:
+    """Halves of the natural frequencies [Hz] under the force and the mean square of the field, dashpots frozen."""
+    found = modes(
+        model,
+        formulation=formulation,
+        force=load.force,
+        field=load.field_amplitude / np.sqrt(2),
+        held_stretch=load.held_stretch,
+        dashpots=FROZEN,
+    )
+    return found["frequency"].values / 2
 
 
 def peak_rises(model: str, letter: str) -> Claim:
@@ -96,7 +123,7 @@ def held_stretch_reduces_away(runs: Runs, formulation: str | None) -> tuple[bool
     """Away from resonance the amplitude falls with the held stretch."""
     figure = _RESPONSE["pure_shear"]
     response = runs.response(figure.number, formulation)
-    loads = next(panel for panel in figure.panels if panel.letter == "c").loads
+    loads = _panel("pure_shear", "c").loads
     values = [_away_from_resonance(response, load) for load in loads]
     text = ", ".join(f"{value:.3g}" for value in values)
     return rising([-value for value in values]), f"median amplitude {text} at held stretches 2, 3, 4"

@@ -11,30 +11,40 @@ import xarray as xr
 
 from delagrange.parameters import SHENG_2015
 from delagrange.reproduction.cases import MOTIONS, RESPONSES, MotionFigures, ResponseFigure
+from delagrange.reproduction.kinds import kinds
 from delagrange.reproduction.motions import SECTION_POINTS, motion, motions, section, sections
 from delagrange.reproduction.numerics import ACCURATE, NUMERICS, PAPER_LIKE, Numerics
 from delagrange.reproduction.responses import curve, response
 from delagrange.reproduction.store import digest
 
 __all__ = [
-    "ACCURATE", "NUMERICS", "PAPER_LIKE", "SECTION_POINTS", "Job", "Numerics", "curve", "formulations", "jobs",
-    "motion", "motions", "response", "section", "sections",
+    "ACCURATE", "KINDS", "NUMERICS", "PAPER_LIKE", "SECTION_POINTS", "Job", "Numerics", "curve", "formulations",
+    "jobs", "kind_jobs", "kinds", "motion", "motions", "response", "section", "sections",
 ]  # fmt: skip
+
+
+KINDS = "kinds"  # what a job finds that asks for the kinds of the motions of a figure
 
 
 @dataclass(frozen=True)
 class Job:
-    """What one process computes in one go: a figure in one formulation and one numerics."""
+    """What one process computes in one go: a figure in one formulation and one numerics, or its kinds of motion."""
 
     figure: int
     case: ResponseFigure | MotionFigures
     formulation: str | None
     numerics: Numerics
+    asks_kinds: bool = False
+
+    @property
+    def finds(self) -> str:
+        """What its result is called among those of a figure."""
+        return KINDS if self.asks_kinds else self.numerics.name
 
     @property
     def name(self) -> str:
         """For people and files: `figure_10_as_printed_paper`."""
-        parts = (f"figure_{self.figure:02d}", self.formulation, self.numerics.name)
+        parts = (f"figure_{self.figure:02d}", self.formulation, self.finds)
         return "_".join(part for part in parts if part)
 
     def digest(self) -> str:
@@ -43,6 +53,8 @@ class Job:
 
     def compute(self) -> xr.Dataset:
         """Over (load, frequency) for a response, (frequency, time) for motions, (frequency, point) for sections."""
+        if self.asks_kinds:
+            return kinds(self.case, self.formulation)
         if isinstance(self.case, ResponseFigure):
             return response(self.case, self.numerics, self.formulation)
         if self.figure == self.case.history_number:
@@ -73,6 +85,15 @@ def jobs(only: tuple[int, ...] | None = None) -> tuple[Job, ...]:
     ]
     _check_figures(only, sorted({job.figure for job in every}))
     return tuple(job for job in every if only is None or _needed(job, only))
+
+
+def kind_jobs() -> tuple[Job, ...]:
+    """The jobs that ask for the kinds of the motions of Figs. 6, 9 and 12."""
+    return tuple(
+        Job(figures.phase_number, figures, formulation, ACCURATE, asks_kinds=True)
+        for figures in MOTIONS
+        for formulation in formulations(figures.model)
+    )
 
 
 def _needed(job: Job, only: tuple[int, ...]) -> bool:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from delagrange.reproduction import kind_claims as kind
 from delagrange.reproduction import motion_claims as motion
 from delagrange.reproduction import response_claims as response
 from delagrange.reproduction.all_runs import Runs
@@ -89,7 +90,7 @@ STATEMENTS: tuple[Statement, ...] = (
         *_force_and_field(4, "equal_biaxial"),
         ("5", _BEATS, motion.beats_at_resonance("equal_biaxial")),
         ("5", _CREEP, motion.creeps_little("equal_biaxial")),
-        ("6", _CLOSED, motion.sections_are_curves("equal_biaxial")),
+        ("6", _CLOSED, kind.sections_are_closed("equal_biaxial")),
     ),
     *_statements(
         "uniaxial",
@@ -98,8 +99,8 @@ STATEMENTS: tuple[Statement, ...] = (
         ("8", _BEATS, motion.beats_at_resonance("uniaxial")),
         ("8", _CREEP, motion.creeps_little("uniaxial")),
         ("8", _MORE_IRREGULAR, motion.more_lines_than_equal_biaxial),
-        ("9", "the Poincaré maps are disordered, no closed loops", motion.sections_are_no_curves),
-        ("9", "the motion is aperiodic", motion.is_aperiodic),
+        ("9", "the Poincaré maps are disordered, no closed loops", kind.sections_fill_an_area),
+        ("9", "the motion is aperiodic", kind.is_aperiodic),
     ),
     *_statements(
         "pure_shear",
@@ -114,6 +115,6 @@ STATEMENTS: tuple[Statement, ...] = (
         ("10c", "a larger held stretch needs a larger holding force", response.reaction_grows),
         ("11", _BEATS, motion.beats_at_resonance("pure_shear")),
         ("11", _CREEP, motion.creeps_little("pure_shear")),
-        ("12", _CLOSED, motion.sections_are_curves("pure_shear")),
+        ("12", _CLOSED, kind.sections_are_closed("pure_shear")),
     ),
 )

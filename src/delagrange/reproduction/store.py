@@ -10,8 +10,14 @@ from pathlib import Path
 
 import xarray as xr
 
-_ROOMS = (".", "analysis", "generated", "reproduction")
-_COMPUTING = ("cases.py", "motions.py", "numerics.py", "responses.py")  # of the modules beside this one
+_ROOMS = (".", "analysis", "analysis/motion", "analysis/rest", "analysis/steady", "generated", "reproduction")
+_COMPUTING = (
+    "cases.py",
+    "kinds.py",
+    "motions.py",
+    "numerics.py",
+    "responses.py",
+)  # of the modules beside this one
 
 
 def digest(*described: object) -> str:

@@ -121,7 +121,9 @@ def statements_table(judgements: tuple[Judgement, ...]) -> Table:
     caption = (
         "Statements of Secs. III and IV in our words, judged from accurate runs. Beating: what vibrates near "
         "twice the field's frequency is modulated by more than 50 % and is a quarter of the swing or more. "
-        "Closed loop: the Poincaré section has a correlation dimension under 1.3."
+        "Closed loop: the base frequencies of the motion, the drive's included, span a torus of dimension 2 at most. "
+        "f_n/2: half the natural frequencies about the equilibrium under the force and the mean square of the "
+        "field, where the squared field is in resonance with small vibrations. Kinds of motion: dashpots frozen."
     )
     return Table(
         "statements",

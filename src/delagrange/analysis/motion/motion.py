@@ -1,0 +1,119 @@
+"""A motion put together from what a user gives: the run, where it starts, how it is forced, what of it moves."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from types import ModuleType
+
+import numpy as np
+
+from delagrange import checks
+from delagrange.analysis.forcing import Forcing, forcing
+from delagrange.analysis.motion.observation import moving_places
+from delagrange.dashpots import FROZEN, frozen, given_state
+from delagrange.dataset import run_attributes
+from delagrange.drive import Drive
+from delagrange.flow import Flow, Path, drive_numbers, typical_sizes
+from delagrange.flows import resolve_flow
+from delagrange.loss import Limits
+from delagrange.models import check_offers, load_model
+from delagrange.parameters import Parameters
+from delagrange.problem import Problem, input_name, make_problem
+from delagrange.units import with_unit
+
+TOLERANCE_RANGE = (1e-13, 1e-4)
+
+
+@dataclass(frozen=True)
+class Motion:
+    """One run from its start, with what carries it on."""
+
+    path: Path
+    flow: Flow
+    start: np.ndarray  # (n_state,) at t = 0
+    forcing: Forcing
+    moving: np.ndarray  # (n_moving,) places in the state of what moves
+    dashpots: str
+    attributes: dict[str, object]  # of the Dataset
+
+    @property
+    def model(self) -> ModuleType:
+        """The model of the run."""
+        return self.path.problem.model
+
+    def periods(self, duration: float) -> int:
+        """How many periods of the forcing make up `duration` [s], at least 16."""
+        return max(16, round(duration / self.forcing.period))
+
+
+def make_motion(
+    model: str | ModuleType,
+    force: Drive | float,
+    field: Drive | float,
+    *,
+    formulation: str | None,
+    lateral_dashpot: str | None,
+    held_stretch: float | None,
+    parameters: Parameters,
+    initial_state: Mapping[str, float] | None,
+    dashpots: str,
+    choices: tuple[str, ...],
+    limits: Limits,
+    tolerance: float,
+    engine: str,
+    material: Mapping[str, float],
+) -> Motion:
+    """The motion, checked; `choices` are those of the dashpots.
+
+    Raises:
+        ValueError: as `delagrange.simulate`; a drive that is neither constant nor a sine; arrays.
+    """
+    module = load_model(model, formulation, lateral_dashpot)
+    check_offers(module, ("jacobian",), "the kind of a motion")
+    checks.choice("dashpots", dashpots, choices)
+    checks.instance("limits", limits, Limits)
+    tolerance = checks.within("tolerance", tolerance, "1", *TOLERANCE_RANGE)
+    problem = make_problem(module, parameters, material, held_stretch, force, field)
+    _check_single(problem, initial_state)
+    start = given_state(problem, initial_state)
+    run = frozen(problem) if dashpots == FROZEN else problem
+    path = Path(run, typical_sizes(run), tolerance, limits)
+    attributes = run_attributes(problem, parameters.replace(**material), limits)
+    return Motion(
+        path,
+        resolve_flow(run, engine),
+        start,
+        forcing(run, start),
+        moving_places(path, dashpots),
+        dashpots,
+        attributes | {"load": load_text(problem), "dashpots": dashpots, "tolerance": tolerance},
+    )
+
+
+def load_text(problem: Problem) -> str:
+    """`force 0.5 N, field 5e+06 V/m sin(2π 371 Hz t)`."""
+    rows = zip(problem.model.INPUTS, drive_numbers(problem))
+    return ", ".join(
+        f"{input_name(entry.name)} {_drive_text(numbers, entry.unit)}" for entry, numbers in rows
+    )
+
+
+def _drive_text(numbers: np.ndarray, unit: str) -> str:
+    bias, amplitude, frequency, phase = (float(number) for number in numbers)
+    if amplitude == 0.0:
+        return with_unit(bias, unit)
+    start = f"{with_unit(bias, unit)} + " if bias else ""
+    lag = f" {'+' if phase > 0 else '-'} {abs(phase):.4g} rad" if phase else ""
+    return f"{start}{with_unit(amplitude, unit)} sin(2π {frequency:.6g} Hz t{lag})"
+
+
+def _check_single(problem: Problem, initial_state: Mapping[str, float] | None) -> None:
+    """Refuse arrays: one motion is judged at a time."""
+    model = problem.model
+    entries = [*zip(model.PARAMETERS, problem.parameters), *zip(model.INPUTS, problem.inputs(0.0))]
+    for entry, value in entries:
+        checks.scalar(input_name(entry.name), value, entry.unit)
+    for entry in model.STATE if isinstance(initial_state, Mapping) else ():
+        if entry.name in initial_state:
+            checks.scalar(f"initial_state {entry.name}", initial_state[entry.name], entry.unit)

@@ -1,0 +1,1 @@
+"""A membrane at rest: equilibria, the limits of its loads, natural vibrations."""

@@ -1,0 +1,229 @@
+"""Dynamic pull-in: the field that, applied suddenly, a membrane at rest does not stand."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from types import ModuleType
+
+import numpy as np
+import xarray as xr
+
+from delagrange import checks
+from delagrange.analysis.continuation import Lost, parameter_of
+from delagrange.analysis.rest.arguments import FROZEN_MEANING, Cases, make_cases
+from delagrange.analysis.rest.branches import at_zero_field, connected_pieces
+from delagrange.analysis.rest.criteria import material
+from delagrange.analysis.rest.energy_barrier import barrier_at_start_energy
+from delagrange.analysis.rest.pieces import FOLD, Piece, point_at
+from delagrange.analysis.rest.statics import Statics, make_statics
+from delagrange.analysis.rest.sudden_field import ATOL, FINEST, RTOL, Bracket, bracket_by_integration
+from delagrange.analysis.rest.vibration import vibration
+from delagrange.dashpots import EVOLVING, FROZEN, RELAXED
+from delagrange.dataset import variable
+from delagrange.engines import AUTO, ENGINES
+from delagrange.loss import Limits
+from delagrange.models import check_offers
+from delagrange.parameters import SHENG_2015, Parameters
+from delagrange.problem import Problem
+from delagrange.tolerances import check_duration
+
+REFERENCE, EQUILIBRIUM = "reference", "equilibrium"
+_PERIODS = 200  # of the slowest vibration at the start
+_BEYOND = 1.05  # of the static pull-in: there nothing holds the membrane
+ENERGY, INTEGRATION = "energy", "integration"
+FOUND, SNAP, NO_BARRIER, NOT_LOST, FORCE_ALONE, NO_START = (
+    "dynamic pull-in", "dynamic snap-through", "no barrier", "not lost up to the largest field",
+    "lost under the force alone", "no equilibrium without field",
+)  # fmt: skip
+_STATUS_MEANING = (
+    f"{FOUND}: between the fields of the bracket; {SNAP}: the barrier is passed at the field by energy, and the "
+    f"solution is not lost; {NO_BARRIER}: there is no unstable equilibrium to climb, and "
+    f"from the field of the bracket on a stretch passes its limit; {NOT_LOST}: within the duration; "
+    f"{FORCE_ALONE}: without any field; {NO_START}: there is nothing to start from"
+)
+_METHOD_MEANING = (
+    f"{ENERGY}: with one coordinate and frozen dashpots the energy is kept, and the membrane turns back before "
+    f"the unstable equilibrium exactly as long as that lies higher than the start; {INTEGRATION}: with two "
+    "coordinates the barrier is a pass, and only a motion that finds it goes over, so that energy gives a "
+    "lower bound alone; with evolving dashpots energy is lost"
+)
+
+
+@dataclass(frozen=True)
+class _Integration:
+    """What was chosen of the runs."""
+
+    dashpots: str
+    start: str
+    duration: float | None  # [s]
+    resolution: float
+    engine: str
+
+
+@dataclass(frozen=True)
+class Critical:
+    """The critical field of one case; NaN where there is none."""
+
+    status: str
+    method: str
+    field_by_energy: float  # [V/m]
+    stretch: float  # [1], of the unstable equilibrium at the critical field
+    static_field: float  # [V/m]
+    duration: float  # [s]
+    bracket: Bracket
+
+    @property
+    def field(self) -> float:
+        """By energy where that is exact, else by integration [V/m]."""
+        return self.field_by_energy if self.method == ENERGY else self.bracket.middle
+
+
+def dynamic_pull_in(
+    model: str | ModuleType,
+    *,
+    force: float | np.ndarray = 0.0,
+    dashpots: str = "frozen",
+    start: str = "reference",
+    duration: float | None = None,
+    resolution: float = FINEST,
+    held_stretch: float | np.ndarray | None = None,
+    engine: str = AUTO,
+    formulation: str | None = None,
+    lateral_dashpot: str | None = None,
+    parameters: Parameters = SHENG_2015,
+    initial_state: Mapping[str, float] | None = None,
+    limits: Limits | None = None,
+    **material_changes: float | np.ndarray,
+) -> xr.Dataset:
+    """The critical field of dynamic pull-in: a constant field applied at t = 0 to a membrane at rest.
+
+    With one coordinate and frozen dashpots the energy gives it exactly. In any case it is found by integration:
+    the smallest field, of a grid refined again and again, at which the solution is lost within the duration.
+    Each of force, held stretch and material may be a one-dimensional array, and is then a dimension.
+
+    Args:
+        force: on each loaded edge [N], applied together with the field, or there before it.
+        dashpots: "frozen" as in the reference state or `initial_state`; or "evolving" from there (or from rest
+            with start "equilibrium"): by integration alone.
+        start: "reference", in the reference state or `initial_state`; or "equilibrium", under the force alone.
+        duration: of each run [s]; left out, 200 periods of the slowest vibration at the start.
+        resolution: width of the bracket of the integration over the field in it, 1e-11 to 1e-2.
+        engine: of the integration, as in `frequency_response`.
+        others: as in `pull_in`.
+
+    Returns:
+        Dataset over the arrays given: `field` [V/m]; `stretch` of the unstable equilibrium there (dashpots as at
+        the start), which a motion of one coordinate reaches exactly and has to pass; `method`;
+        `field_by_energy` (one coordinate) or `field_by_energy_bound`, below which no motion gets over the
+        barrier (two coordinates); `field_by_integration` with `bracket_width`; `static_field`; `found`.
+
+    Raises:
+        ValueError: something given makes no sense; the message names it, its value, its unit and what is allowed.
+    """
+    limits = Limits() if limits is None else limits
+    checks.choice("dashpots", dashpots, (FROZEN, EVOLVING))
+    checks.choice("start", start, (REFERENCE, EQUILIBRIUM))
+    checks.choice("engine", engine, (AUTO, *ENGINES))
+    duration = None if duration is None else check_duration(duration)
+    resolution = checks.within("resolution", resolution, "1", FINEST, 1e-2)
+    values = {"force": force, "held_stretch": held_stretch, **material_changes}
+    cases = make_cases(model, formulation, lateral_dashpot, parameters, initial_state, limits, values)
+    check_offers(cases.model, ("potential_energy",), "dynamic pull-in")
+    integration = _Integration(dashpots, start, duration, resolution, engine)
+    found = [_critical(cases, problem, integration) for problem in cases.problems()]
+    attributes = cases.attributes(dashpots) | {
+        "definition": "constant field applied at t = 0 to the membrane at rest",
+        "start": start,
+        "dashpots_meaning": f"{FROZEN_MEANING}; evolving: they flow as the membrane moves",
+        "rtol": RTOL,
+        "atol": ATOL,
+        "integration_engine": found[0].bracket.engine,
+    }
+    return xr.Dataset(_variables(cases, found, dashpots), coords=cases.coordinates(), attrs=attributes)
+
+
+def _critical(cases: Cases, problem: Problem, how: _Integration) -> Critical:
+    frozen = make_statics(problem, FROZEN, cases.initial_state, cases.limits)
+    exact = how.dashpots == FROZEN and cases.model.COORDINATE_COUNT == 1
+    method = ENERGY if exact else INTEGRATION
+    try:
+        state = _start_state(cases, problem, frozen, how)
+        frozen = replace(frozen, rest=state)
+        pieces = connected_pieces(frozen, 0.0)
+    except Lost:
+        nothing = Bracket(np.nan, np.nan, "")
+        return Critical(NO_START, method, np.nan, np.nan, np.nan, np.nan, nothing)
+    barrier = barrier_at_start_energy(frozen, pieces, state) if how.dashpots == FROZEN else None
+    duration = _default_duration(frozen, state) if how.duration is None else how.duration
+    runs = frozen.problem if how.dashpots == FROZEN else problem
+    largest = _BEYOND * pieces[0].high
+    bracket = bracket_by_integration(runs, state, largest, duration, cases.limits, how.engine, how.resolution)
+    energy = np.nan if barrier is None else parameter_of(barrier)
+    stretch = _barrier_stretch(frozen, pieces, energy if exact else bracket.middle)
+    static = pieces[0].high if pieces[0].upper_end == FOLD else np.nan
+    status = _status(bracket, exact, barrier is not None)
+    return Critical(status, method, energy, stretch, static, duration, bracket)
+
+
+def _barrier_stretch(statics: Statics, pieces: list[Piece], field: float) -> float:
+    """The first stretch of the unstable equilibrium that meets the stable one at pull-in [1]; NaN without one."""
+    if len(pieces) < 2 or not pieces[1].covers(field):
+        return np.nan
+    return float(statics.state(point_at(statics, pieces[1], field).x)[0])
+
+
+def _start_state(cases: Cases, problem: Problem, frozen: Statics, how: _Integration) -> np.ndarray:
+    """(n_state,), at rest."""
+    if how.start == REFERENCE:
+        return frozen.rest
+    flows = make_statics(problem, RELAXED, cases.initial_state, cases.limits)
+    statics = flows if how.dashpots == EVOLVING else frozen
+    return statics.state(at_zero_field(statics))
+
+
+def _default_duration(statics: Statics, state: np.ndarray) -> float:
+    rates = vibration(statics, statics.x_of(state, 0.0)).rates
+    slowest = np.min(np.abs(rates))
+    return float(_PERIODS * 2 * np.pi / slowest)
+
+
+def _status(bracket: Bracket, exact: bool, barrier: bool) -> str:
+    if np.isnan(bracket.safe):
+        return FORCE_ALONE
+    if np.isnan(bracket.lost):
+        return SNAP if exact and barrier else NOT_LOST
+    return NO_BARRIER if exact and not barrier else FOUND
+
+
+def _variables(cases: Cases, found: list[Critical], dashpots: str) -> dict[str, tuple]:
+    dimensions, shape = tuple(cases.grid.axes), cases.grid.shape
+    fields = np.array([critical.field for critical in found])
+    thickness = 2 * np.array([material(problem, "half_thickness") for problem in cases.problems()])
+    by_energy = "field_by_energy" if cases.model.COORDINATE_COUNT == 1 else "field_by_energy_bound"
+    columns = {
+        "field": ("V/m", "critical field of dynamic pull-in", fields),
+        "voltage": ("V", "critical voltage of dynamic pull-in", fields * thickness),
+        "stretch": (
+            "1",
+            "stretch of the unstable equilibrium at it",
+            [critical.stretch for critical in found],
+        ),
+        "field_by_integration": ("V/m", "critical field by integration", [c.bracket.middle for c in found]),
+        "bracket_width": ("V/m", "width of its bracket", [c.bracket.width for c in found]),
+        "duration": ("s", "duration of the runs", [c.duration for c in found]),
+        "static_field": ("V/m", "field of static pull-in", [c.static_field for c in found]),
+    }
+    if dashpots == FROZEN:
+        columns[by_energy] = ("V/m", by_energy.replace("_", " "), [c.field_by_energy for c in found])
+    data = {
+        name: variable(dimensions, np.array(values, dtype=float).reshape(shape), unit, long_name)
+        for name, (unit, long_name, values) in columns.items()
+    }
+    for name, values, meaning in (
+        ("method", [critical.method for critical in found], _METHOD_MEANING),
+        ("found", [critical.status for critical in found], _STATUS_MEANING),
+    ):
+        array = np.array(values, dtype=object).reshape(shape)
+        data[name] = dimensions, array, {"long_name": name, "meaning": meaning}
+    return data

@@ -1,0 +1,143 @@
+"""Where a membrane rests under constant force and field: all branches, their stability, and where they end."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from types import ModuleType
+
+import numpy as np
+import xarray as xr
+
+from delagrange import checks
+from delagrange.analysis.rest.arguments import (
+    FROZEN_MEANING,
+    RELAXED_MEANING,
+    make_cases,
+    single_case,
+)
+from delagrange.analysis.rest.branches import all_pieces, limit_points
+from delagrange.analysis.rest.criteria import Criteria, material
+from delagrange.analysis.rest.equilibria_dataset import branch_variables, curve_variables, limit_variables
+from delagrange.analysis.rest.equilibria_grid import grid_variables
+from delagrange.analysis.rest.pieces import Piece
+from delagrange.analysis.rest.statics import Statics, make_statics
+from delagrange.dataset import variable
+from delagrange.loss import Limits
+from delagrange.parameters import SHENG_2015, Parameters
+
+
+@dataclass(frozen=True)
+class Found:
+    """All that was found of the equilibria of a membrane."""
+
+    statics: Statics
+    pieces: list[Piece]
+    criteria: Criteria
+
+
+def equilibria(
+    model: str | ModuleType,
+    *,
+    force: float = 0.0,
+    field: float | np.ndarray | None = None,
+    voltage: float | np.ndarray | None = None,
+    dashpots: str = "relaxed",
+    breakdown_field: float | None = None,
+    breakdown_exponent: float = 0.0,
+    smallest_tension: float = 0.0,
+    formulation: str | None = None,
+    lateral_dashpot: str | None = None,
+    held_stretch: float | None = None,
+    parameters: Parameters = SHENG_2015,
+    initial_state: Mapping[str, float] | None = None,
+    limits: Limits | None = None,
+    **material_changes: float,
+) -> xr.Dataset:
+    """Every equilibrium of a membrane under a constant force, over the field.
+
+    Curves are followed by pseudo-arclength continuation from the unloaded membrane and from whatever Newton's
+    method finds from a grid of stretches at several fields from zero to the largest. A `branch` is a part of a
+    curve between two limit points, so that it has one equilibrium at most at each field; branch 0 is the one
+    that the unloaded membrane reaches under the force alone. The field enters squared: its sign does not matter.
+    Edge forces are those of springs and field as they are: with the formulation "as_printed", whose potential is
+    another, they do not balance the applied force.
+
+    Args:
+        force: on each loaded edge [N].
+        field: nominal, voltage over reference thickness [V/m]; a number or an increasing array, also none.
+        voltage: instead of the field, [V].
+        dashpots: "relaxed", at rest as well; or "frozen", as in the reference state or `initial_state`.
+        breakdown_field: true field [V/m] that the undeformed material stands; no breakdown if left out.
+        breakdown_exponent: the strength grows with the thickness stretch to the power -exponent / 2, that is
+            with the equal-biaxial stretch to the power of the exponent.
+        smallest_tension: nominal stress [Pa] on an edge below which tension counts as lost (wrinkles).
+        formulation, lateral_dashpot, held_stretch, parameters, initial_state, limits, material_changes: as in
+            `frequency_response`, single numbers. Beyond the limits no equilibrium is looked for.
+
+    Returns:
+        Dataset over (`field`, `branch`): the state variables (NaN where the branch has no equilibrium) and
+        `stretch`; `stability`; `margin` [V/m] and `relative_margin` to the branch's limit point; edge forces,
+        `true_field`, `tension_lost`, `breakdown`. Over `field`: `count`, `stable_count`, `voltage`. Over
+        `branch`: why it ends at either end. The curves themselves over `point`, limit points over
+        `limit_point`. A single field has no dimension. No equilibrium at all is an answer: no branch, or NaN.
+
+    Raises:
+        ValueError: something given makes no sense; the message names it, its value, its unit and what is allowed.
+    """
+    limits = Limits() if limits is None else limits
+    values = {"force": force, "held_stretch": held_stretch, **material_changes}
+    cases = make_cases(model, formulation, lateral_dashpot, parameters, initial_state, limits, values)
+    problem = single_case(cases, "equilibria").first_problem()
+    statics = make_statics(problem, dashpots, cases.initial_state, limits)
+    criteria = Criteria(breakdown_field, breakdown_exponent, smallest_tension)
+    fields = _fields(field, voltage, statics)
+    pieces = all_pieces(statics, float(np.max(np.abs(fields))))
+    found = Found(statics, pieces, criteria)
+    return _dataset(found, fields, cases.coordinates(), cases.attributes(dashpots))
+
+
+def _fields(field: object, voltage: object, statics: Statics) -> np.ndarray:
+    """Nominal fields [V/m], of no or one dimension.
+
+    Raises:
+        ValueError: both given or none, or values that are not finite and increasing.
+    """
+    if (field is None) == (voltage is None):
+        given = "neither" if field is None else "both"
+        raise ValueError(f"either field [V/m] or voltage [V] must be given, got {given}")
+    name, value, unit = ("field", field, "V/m") if voltage is None else ("voltage", voltage, "V")
+    values = np.asarray(checks.finite(name, value, unit), dtype=float)
+    if values.ndim:
+        values = checks.increasing(name, values, unit)
+    thickness = 1.0 if voltage is None else 2 * material(statics.problem, "half_thickness")
+    return values / thickness
+
+
+def _dataset(
+    found: Found, fields: np.ndarray, coordinates: dict[str, tuple], attributes: dict[str, object]
+) -> xr.Dataset:
+    statics, pieces = found.statics, found.pieces
+    dimensions = ("field",) if fields.ndim else ()
+    data = grid_variables(statics, pieces, found.criteria, np.atleast_1d(fields), dimensions)
+    data |= branch_variables(pieces)
+    data |= curve_variables(statics, pieces, found.criteria)
+    data |= limit_variables(statics, limit_points(statics, pieces))
+    coordinates = coordinates | {
+        "field": variable(dimensions, fields, "V/m", "nominal electric field", "E"),
+        "branch": variable(
+            "branch", np.arange(len(pieces)), "1", "number of the branch; 0 begins at the unloaded membrane"
+        ),
+    }
+    method = {
+        "method": "pseudo-arclength continuation (Keller 1977) of the derived equations at rest",
+        "dashpots_meaning": f"{FROZEN_MEANING}; {RELAXED_MEANING}",
+        "breakdown_field": np.inf
+        if found.criteria.breakdown_field is None
+        else found.criteria.breakdown_field,
+        "breakdown_field_units": "V/m",
+        "breakdown_exponent": found.criteria.breakdown_exponent,
+        "smallest_tension": found.criteria.smallest_tension,
+        "smallest_tension_units": "Pa",
+    }
+    return xr.Dataset(data, coords=coordinates, attrs=attributes | method)

@@ -1,0 +1,88 @@
+"""Branches of equilibria, their curves and their limit points as variables of a Dataset."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from delagrange.analysis.continuation import Point
+from delagrange.analysis.rest.arguments import stretch_alias
+from delagrange.analysis.rest.branches import LIMIT_MEANING, LimitPoint
+from delagrange.analysis.rest.criteria import Criteria, breakdown_margin, material, tension_margin
+from delagrange.analysis.rest.pieces import FOLD, Piece
+from delagrange.analysis.rest.statics import Statics
+from delagrange.analysis.rest.vibration import STABILITY_MEANING, growing_directions, stability_name
+from delagrange.dataset import variable
+
+_ENDING_MEANING = (
+    "fold: it turns back there, at a limit point; limit: a stretch beyond the limits; lost: the continuation "
+    "could not go on, and says where; else as it says"
+)
+
+
+def branch_variables(pieces: list[Piece]) -> dict[str, tuple]:
+    """From which field to which every branch reaches, and why it ends there."""
+
+    def texts(values: list[str], long_name: str) -> tuple:
+        attributes = {"long_name": long_name, "meaning": _ENDING_MEANING}
+        return "branch", np.array(values, dtype=object), attributes
+
+    lowest, highest = [piece.low for piece in pieces], [piece.high for piece in pieces]
+    return {
+        "branch_lowest_field": variable("branch", lowest, "V/m", "smallest field of the branch"),
+        "branch_highest_field": variable("branch", highest, "V/m", "largest field of the branch"),
+        "branch_lower_end": texts([piece.lower_end for piece in pieces], "why it ends at its smallest field"),
+        "branch_upper_end": texts([piece.upper_end for piece in pieces], "why it ends at its largest field"),
+    }
+
+
+def curve_variables(statics: Statics, pieces: list[Piece], criteria: Criteria) -> dict[str, tuple]:
+    """Every point of every branch, in the order of the growing field."""
+    points = [point for piece in pieces for point in piece.points]
+    numbers = [number for number, piece in enumerate(pieces) for _ in piece.points]
+    names = [name for piece in pieces for name in _stabilities(statics, piece)]
+    attributes = {"long_name": "stability on the branch", "meaning": STABILITY_MEANING}
+    slack = np.array([tension_margin(statics, point.x, criteria) < 0 for point in points], dtype=bool)
+    broken = np.array([breakdown_margin(statics, point.x, criteria) <= 0 for point in points], dtype=bool)
+    return _state_variables(statics, points, "point", "curve_", "on the branch") | {
+        "curve_branch": variable("point", np.array(numbers, dtype=int), "1", "branch of the point"),
+        "curve_tension_lost": ("point", slack, {"long_name": "tension lost on the branch"}),
+        "curve_breakdown": ("point", broken, {"long_name": "breakdown on the branch"}),
+        "curve_stability": ("point", np.array(names, dtype=object), attributes),
+    }
+
+
+def _stabilities(statics: Statics, piece: Piece) -> list[str]:
+    """Stability at every point of a piece; at a fold, where it changes, as on the rest of the piece."""
+    names = [stability_name(statics, growing_directions(statics, point.x)) for point in piece.points]
+    if len(names) > 1:
+        names[0] = names[1] if piece.lower_end == FOLD else names[0]
+        names[-1] = names[-2] if piece.upper_end == FOLD else names[-1]
+    return names
+
+
+def limit_variables(statics: Statics, limits: list[LimitPoint]) -> dict[str, tuple]:
+    """The folds of all branches."""
+    points = [limit.point for limit in limits]
+    kinds = np.array([limit.kind for limit in limits], dtype=object)
+    data = _state_variables(statics, points, "limit_point", "limit_", "at the limit point")
+    voltages = np.array([point.x[-1] for point in points]) * 2 * material(statics.problem, "half_thickness")
+    data["limit_voltage"] = variable("limit_point", voltages, "V", "voltage at the limit point", "U")
+    data["limit_kind"] = "limit_point", kinds, {"long_name": "kind of limit", "meaning": LIMIT_MEANING}
+    return data
+
+
+def _state_variables(
+    statics: Statics, points: list[Point], dimension: str, prefix: str, where: str
+) -> dict[str, tuple]:
+    """The field and the state variables of points, each with a prefix."""
+    model = statics.problem.model
+    states = np.array([statics.state(point.x) for point in points]).reshape(-1, len(model.STATE)).T
+    fields = np.array([point.x[-1] for point in points])
+    data = {f"{prefix}field": variable(dimension, fields, "V/m", f"nominal electric field {where}", "E")}
+    for entry, values in zip(model.STATE, states):
+        data[prefix + entry.name] = variable(
+            dimension, values, entry.unit, f"{entry.meaning}, {where}", entry.symbol
+        )
+    for alias, name in stretch_alias(model).items():
+        data[prefix + alias] = data[prefix + name]
+    return data

@@ -1,0 +1,93 @@
+"""Equilibria at one value of the field, wherever they are: Newton's method from a grid of stretches, all at once."""
+
+from __future__ import annotations
+
+from itertools import product
+
+import numpy as np
+
+from delagrange import loss
+from delagrange.analysis.continuation import Lost, solve
+from delagrange.analysis.rest.statics import TOLERANCE, Statics, with_relaxed_dashpots
+from delagrange.dashpots import coordinate_places
+
+_STARTS = {1: 400, 2: 24}  # along each axis, by the number of coordinates
+_ITERATIONS = 25  # enough from starts that are less than half a strain apart
+_LARGEST_STRAIN = 0.3  # of one step of Newton's method
+_SAME = 1e-6  # strain between what is one equilibrium
+
+
+def equilibria_at(statics: Statics, value: float) -> list[np.ndarray]:
+    """Every x found at a value of the varied input, within the limits, in the order of the first stretch.
+
+    With one coordinate the starts are so dense (3 % of stretch apart) that only two equilibria nearer to each
+    other than that may be missed; those are joined by a fold, and a curve through one of them leads to the other.
+    """
+    candidates = _newton_over_lanes(statics, _starts(statics), value)
+    found: list[np.ndarray] = []
+    for start in _distinct(candidates):
+        try:
+            x = solve(statics.residual, start, statics.scale, TOLERANCE).x
+        except Lost:
+            continue
+        if statics.outside(x) is None and not any(same(x, other) for other in found):
+            found.append(x)
+    return sorted(found, key=lambda x: tuple(x))
+
+
+def same(one: np.ndarray, other: np.ndarray) -> bool:
+    """Whether two x at the same input are one equilibrium."""
+    return bool(np.max(np.abs(one[:-1] - other[:-1])) < _SAME)
+
+
+def _starts(statics: Statics) -> np.ndarray:
+    """States over a grid of the coordinates, (n_state, n_lanes), all within the limits."""
+    model, limits = statics.problem.model, statics.limits
+    count = model.COORDINATE_COUNT
+    along = np.geomspace(limits.smallest_stretch, limits.largest_stretch, _STARTS.get(count, 10))
+    grid = np.array(list(product(along, repeat=count))).T
+    states = np.repeat(statics.rest[:, None], grid.shape[1], axis=1)
+    states[coordinate_places(model)] = grid
+    principal = model.principal_stretches(states, tuple(statics.inputs), statics.problem.parameters)
+    return with_relaxed_dashpots(statics, states[:, loss.margin(principal, limits) > 0])
+
+
+def _newton_over_lanes(statics: Statics, states: np.ndarray, value: float) -> np.ndarray:
+    """x of the lanes that came to rest, (n_found, n_unknowns + 1)."""
+    inputs = statics.inputs.copy()
+    inputs[statics.varied] = value
+    states = states.copy()
+    with np.errstate(all="ignore"):
+        for _ in range(_ITERATIONS):
+            step = _steps(statics, states, tuple(inputs))
+            states[statics.unknowns] *= np.exp(np.clip(step, -_LARGEST_STRAIN, _LARGEST_STRAIN))
+    settled = np.max(np.abs(step), axis=0) < _SAME
+    strains = np.log(states[statics.unknowns][:, settled])
+    return np.column_stack([strains.T, np.full(strains.shape[1], value)])
+
+
+def _steps(statics: Statics, states: np.ndarray, inputs: tuple) -> np.ndarray:
+    """Newton's steps of the strains, (n_unknowns, n_lanes); NaN where there is none."""
+    arguments = states, inputs, statics.problem.parameters
+    model = statics.problem.model
+    lanes, size = states.shape[1], len(statics.unknowns)
+    rates = np.broadcast_to(model.rhs(*arguments), states.shape)[statics.rows]
+    jacobian = model.jacobian(*arguments)
+    jacobian = np.broadcast_to(jacobian, (*jacobian.shape[:2], lanes))[np.ix_(statics.rows, statics.unknowns)]
+    slopes = np.moveaxis(jacobian * states[statics.unknowns], -1, 0)
+    sizes = np.linalg.norm(slopes, axis=2, keepdims=True)
+    slopes, right = slopes / sizes, -rates.T[:, :, None] / sizes
+    regular = np.all(np.isfinite(slopes), axis=(1, 2)) & np.all(np.isfinite(right), axis=(1, 2))
+    slopes[~regular] = np.eye(size)
+    regular &= np.abs(np.linalg.det(slopes)) > 1e-14
+    slopes[~regular] = np.eye(size)
+    steps = np.linalg.solve(slopes, np.where(regular[:, None, None], right, np.nan))
+    return steps[:, :, 0].T
+
+
+def _distinct(candidates: np.ndarray) -> list[np.ndarray]:
+    kept: list[np.ndarray] = []
+    for x in candidates:
+        if not any(np.max(np.abs(x[:-1] - other[:-1])) < 10 * _SAME for other in kept):
+            kept.append(x)
+    return kept

@@ -1,0 +1,1 @@
+"""Periodic motions under a periodic drive, stable and unstable."""

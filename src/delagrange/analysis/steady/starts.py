@@ -1,0 +1,83 @@
+"""Periodic motions to start branches from: grown with the field, or near rest under its mean square."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from functools import cache
+
+import numpy as np
+
+from delagrange.analysis.continuation import Lost, Settings, continue_branch, solve
+from delagrange.analysis.rest.seeds import equilibria_at
+from delagrange.analysis.rest.statics import FIELD, Statics
+from delagrange.analysis.steady.search import Range, Search
+from delagrange.analysis.steady.shooting import Shooting
+
+_FARTHEST = 1.5  # of the wanted amplitude of the field: folds back from beyond are followed that far
+_GROWTH = Settings(
+    first_step=0.01, largest_step=0.04, smallest_step=1e-6, most_points=250, tolerance=1e-8, largest_angle=0.3
+)
+
+
+@dataclass(frozen=True)
+class Start:
+    """A periodic motion, and how it was found."""
+
+    x: np.ndarray  # (n_unknowns + 1,), of the shooting along the range
+    origin: str
+
+
+Equilibria = Callable[
+    [float, float], list[np.ndarray]
+]  # states, (n_state,), under a force [N] and a field [V/m]
+
+
+def equilibria_of(statics: Statics) -> Equilibria:
+    """Every equilibrium found under a constant load, each load looked at once."""
+
+    @cache
+    def found(force: float, field: float) -> list[np.ndarray]:
+        loaded = statics.varying(FIELD, force=force)
+        return [loaded.state(x) for x in equilibria_at(loaded, field)]
+
+    return found
+
+
+def starts(search: Search, equilibria: Equilibria, value: float) -> Iterator[Start]:
+    """Periodic motions at a value of the varied number; the same one may come more than once."""
+    load = search.shooting.at(value)
+    for rest in equilibria(load["force"], load["field_bias"]):
+        for state in _grown(search, rest, load):
+            yield Start(search.shooting.x_of(state, value), "grown with the field from an equilibrium")
+    mean_square = load["field_bias"] ** 2 + load["field_amplitude"] ** 2 / 2
+    for rest in equilibria(load["force"], float(np.sqrt(mean_square))):
+        yield from _solved(search, rest, value)
+
+
+def _grown(search: Search, state: np.ndarray, load: dict[str, float]) -> Iterator[np.ndarray]:
+    """States at phase 0, at the wanted amplitude of the field, of the motions that grow with it from an equilibrium."""
+    target = load["field_amplitude"]
+    if target == 0:
+        yield state
+        return
+    shooting = search.shooting.varying("field_amplitude", target, **load)
+    growth = Search(
+        shooting, Range(0.0, _FARTHEST * target), _GROWTH, search.conservative, search.largest_amplitude
+    )
+    start = shooting.x_of(state, 0.0)
+    branch = continue_branch(shooting.residual, start, 1, shooting.scale, _GROWTH, growth.outside)
+    for point in growth.crossings(branch.points, target):
+        yield shooting.state(point.x)
+
+
+def _solved(search: Search, state: np.ndarray, value: float) -> Iterator[Start]:
+    shooting: Shooting = search.shooting
+    try:
+        found = solve(
+            shooting.residual, shooting.x_of(state, value), shooting.scale, search.settings.tolerance
+        )
+    except Lost:
+        return
+    if search.outside(found.x) is None:
+        yield Start(found.x, "found near the equilibrium under the mean square of the field")
