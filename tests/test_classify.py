@@ -159,6 +159,9 @@ def test_the_forcing_is_at_twice_the_frequency_of_a_field_without_bias(force, fi
 def test_rest():
     still = dl.classify("equal_biaxial", duration=0.1)
     assert still["verdict"].item() == "at rest"
+    hardly_begun = dl.classify("equal_biaxial", field=dl.Sine(1e6, 1e9), duration=1e-6)
+    assert hardly_begun["verdict"].item() == "undecided"
+    assert hardly_begun["sufficient_horizon"].item() > 1.0
     damped = dl.classify("equal_biaxial", force=0.3, dashpots="evolving", relaxation_time=0.01, duration=0.5)
     assert damped["verdict"].item() == "at rest"
     assert damped.attrs["transient"] > 0.3
@@ -211,6 +214,16 @@ def test_relaxed_waits_for_transients_however_long():
     waited = dl.classify(**arguments, dashpots="relaxed", duration=0.3)
     assert waited.attrs["transient"] > 1.2
     assert waited["verdict"].item() == "periodic"
+    with pytest.raises(ValueError, match="transient must lie from 0 s to"):
+        dl.classify(**arguments | {"relaxation_time": 1e9}, dashpots="relaxed", duration=0.3)
+
+
+def test_a_long_transient_is_taken_in_parts(monkeypatch):
+    arguments = PERIODIC_MEMBRANE.arguments() | {"duration": 0.3, "transient": 0.1}
+    whole = dl.classify(**arguments)
+    monkeypatch.setattr("delagrange.analysis.motion.observation._AT_ONCE", 20)
+    parts = dl.classify(**arguments)
+    np.testing.assert_allclose(parts["section_stretch"], whole["section_stretch"], rtol=0, atol=1e-9)
 
 
 def test_the_gain_of_the_tangent_parts_powers_of_time_from_exponentials():

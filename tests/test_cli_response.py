@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
+import delagrange as dl
 from delagrange.cli import main
 
 TRANSIENT = "response equal-biaxial --force 0.5 --field-amplitude 1e6 --frequency 370:390:5 --quiet"
@@ -59,6 +60,28 @@ def test_the_transient_can_be_drawn_over_any_load(tmp_path, suffix, head):
     assert [path.name for path in tmp_path.iterdir()] == [plot.name]
 
 
+def test_where_every_transient_is_lost_there_is_an_empty_picture(tmp_path, capsys):
+    plot = tmp_path / "lost.png"
+    text = "response equal-biaxial --field-amplitude 1e9 --frequency 100:120:10 --quiet"
+    assert run(text, "--plot", str(plot)) == 0
+    assert plot.read_bytes().startswith(b"\x89PNG")
+    assert "written:" in capsys.readouterr().out
+
+
+def test_without_any_branch_the_picture_says_so():
+    from delagrange.figures.steady_figure import draw_steady
+
+    found = dl.steady_response(
+        "equal_biaxial", force=1e9, field_amplitude=1e6, frequency=(100.0, 120.0), seeds=2, resolution=10
+    )
+    assert found.sizes["branch"] == found.sizes["point"] == 0
+    above, below = draw_steady(found).axes
+    assert [text.get_text() for text in above.texts][-1:] == ["no periodic motion found"]
+    for axes in (above, below):
+        low, high = axes.get_ylim()
+        assert low < high
+
+
 BAD = [
     (
         "--frequency 380",
@@ -71,7 +94,7 @@ BAD = [
     ("--frequency 380:390 --sweeps", "--sweeps changes nothing without --steady"),
     ("--frequency 380:390 --steady --sweeps", "--sweeps needs --dashpots relaxed, got frozen"),
     ("--frequency 380:390 --steady --dashpots loose", "dashpots must be one of frozen, relaxed"),
-    ("--frequency 380:390 --plot a.svg", "plot file a.svg must end in .png or .pdf"),
+    ("--frequency 380:390 --plot a.svg", "plot file a.svg must end in .png (PNG) or .pdf (PDF)"),
     ("--frequency 380:390 --out a.txt", "output file a.txt must end in"),
 ]
 

@@ -51,6 +51,16 @@ def test_what_a_verdict_says_of_a_statement(verdicts, dimension, closed, area, a
     assert is_aperiodic(runs, None)[0] is aperiodic
 
 
+def test_what_a_section_shows_is_read_from_the_verdict():
+    runs = Runs({(9, None, KINDS): found("quasi-periodic", "chaotic", "undecided", dimension=np.nan)})
+    shown = runs.kinds(9)["torus_dimension"].copy(data=[3.0, np.nan, np.nan])
+    runs = Runs({(9, None, KINDS): runs.kinds(9).assign(torus_dimension=shown)})
+    first, second, third = sections_fill_an_area(runs, None)[1].split("; ")
+    assert "dimension 3" in first
+    assert "surface" in first
+    assert (second, third) == ("101 Hz: chaotic", "102 Hz: undecided")
+
+
 def test_a_case_is_what_classify_says_of_it():
     case = MOTIONS[0]
     ours = kind(case, case.frequencies[0])

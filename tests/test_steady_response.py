@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import delagrange as dl
-from delagrange.analysis.steady import steady_response as module
+from delagrange.analysis.steady import response as module
 from delagrange.analysis.steady.floquet import BRANCH_POINT, FOLD, PERIOD_DOUBLING
 from delagrange.flows import resolve_flow
 
@@ -401,6 +401,8 @@ def test_it_is_written_and_read_back(tmp_path):
 
 
 BAD = [
+    ({"seeds": [[410.0, 420.0]]}, "seeds must be a count, or a one-dimensional array"),
+    ({"seeds": []}, "seeds must be a count, or a one-dimensional array"),
     ({"frequency": 300.0}, "exactly one of force, field_amplitude, field_bias, frequency must be a pair"),
     ({"force": (0.0, 1.0)}, "exactly one of .* got 2 pairs: force, frequency"),
     ({"frequency": (300.0, 310.0, 320.0)}, r"frequency must be a number or a pair \(start, stop\)"),
@@ -428,3 +430,9 @@ def test_bad_input(change, message):
     with pytest.raises(ValueError, match=message) as error:
         dl.steady_response("equal_biaxial", **given)
     assert "\n" not in str(error.value)
+
+
+@pytest.mark.parametrize("frequency", [(1e-9, 2e-9), (800.0, 0.05)])
+def test_a_period_of_endless_vibrations_is_refused(frequency):
+    with pytest.raises(ValueError, match=r"frequency must be at least 0\.0919 Hz, 10000 small vibrations"):
+        dl.steady_response("equal_biaxial", frequency=frequency, field_amplitude=1e6)

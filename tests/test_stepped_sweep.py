@@ -63,6 +63,7 @@ def test_a_loss_ends_the_sweep():
 
 BAD = [
     ({"frequency": [300.0, 310.0, 305.0]}, "frequency must be strictly increasing or strictly decreasing"),
+    ({"frequency": []}, "of at least one value"),
     ({"frequency": [0.0, 310.0]}, "frequency must be positive and finite"),
     ({"dashpots": "evolving"}, "dashpots must be one of frozen, relaxed"),
     ({"settle": -1}, "settle must be an integer from 0"),

@@ -32,12 +32,8 @@ class Travel:
 
     state: np.ndarray  # (n_times, n_state), NaN after a loss; the first row is the start
     tangent: np.ndarray  # (n_state, n_columns) at the last time, or at the loss
-    growth: (
-        np.ndarray
-    )  # (n_times - 1, n_columns), log of the growth of each orthogonalised column, else 0; NaN if lost
-    divergence: (
-        np.ndarray
-    )  # (n_times,) [1], integral of the trace of J over time from the first time, NaN after a loss
+    growth: np.ndarray  # (n_times - 1, n_columns), log of each orthogonalised column's, else 0; NaN if lost
+    divergence: np.ndarray  # (n_times,) [1], integral of the trace of J since the first time; NaN if lost
     maximum: np.ndarray  # (n_coordinates,) [1], of each coordinate over all times
     minimum: np.ndarray  # (n_coordinates,) [1]
     status: int  # place in delagrange.loss.STATUS
@@ -166,7 +162,10 @@ def drive_slope_bound(numbers: np.ndarray, number: int, time: float) -> float:
 
 
 def typical_sizes(problem: Problem) -> np.ndarray:
-    """(n_state,): 1 for stretches, for their rates the angular frequency of the fastest vibration at rest [1/s]."""
+    """(n_state,): 1 for stretches, for their rates the angular frequency of the fastest small vibration [1/s].
+
+    That is about the reference state, under the loads at t = 0.
+    """
     model = problem.model
     reference = np.asarray(model.reference_state(problem.parameters), dtype=float)
     count = model.COORDINATE_COUNT

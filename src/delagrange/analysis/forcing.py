@@ -12,9 +12,7 @@ from delagrange.flow import AMPLITUDE, BIAS, FREQUENCY, drive_numbers, typical_s
 from delagrange.problem import Problem
 
 _SAMPLES = 8  # in a forcing period, and in a period of the fastest small vibration
-_FREE_SAMPLES = (
-    16  # in that period where nothing is forced: no folded line is then mistaken for one of its own
-)
+_FREE_SAMPLES = 16  # in that period where nothing is forced: no folded line then counts as one of its own
 _LARGEST_RATIO = 50  # of two drive frequencies that count as commensurate
 _SAME = 1e-12  # relative
 
@@ -24,11 +22,9 @@ class Forcing:
     """What the drives ask for; a field without bias enters squared and forces at twice its frequency."""
 
     frequencies: tuple[float, ...]  # [Hz], with no common measure; empty where all drives are constant
-    period: (
-        float  # [s] of the stroboscopic section: of the first frequency, or of the fastest small vibration
-    )
+    period: float  # [s] of the stroboscopic section: of the first frequency, or of the fastest vibration
     samples: int  # in a period
-    fastest: float  # [Hz], of the fastest small vibration about the reference state
+    fastest: float  # [Hz], of the fastest small vibration about the reference state, loaded as at t = 0
 
     @property
     def interval(self) -> float:

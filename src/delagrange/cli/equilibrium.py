@@ -74,6 +74,10 @@ def equilibrium(
     if out is not None:
         check_writable(out)
     check_plot(plot)
+    if map_force and (field or voltage):
+        raise ValueError(
+            "--field and --voltage change nothing with --map-force, which finds the field; leave them out"
+        )
     from delagrange.models import load_model
 
     module = load_model(model, formulation, lateral_dashpot)

@@ -66,6 +66,8 @@ def modes(
     module = load_model(model, formulation, lateral_dashpot)
     units = _INPUT_UNITS | dict(CHANGEABLE_UNITS)
     values = {name: quantities.axis(name, context.params[name], unit) for name, unit in units.items()}
+    if plot is not None and not any(np.ndim(value) for value in values.values()):
+        raise ValueError("--plot draws modes over what is varied: give an option two or more values")
     with interruptible("the modes were not finished, nothing was written"):
         from delagrange.analysis.rest.modes import modes as find_modes
 

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -16,19 +15,20 @@ from delagrange.cli import console, quantities
 from delagrange.cli import options as o
 from delagrange.cli.initial import initial_state
 from delagrange.cli.interruption import Interrupted, interruptible
-from delagrange.files import check_file, check_writable, write_dataset
+from delagrange.cli.plots import check_plot, write_plot
+from delagrange.files import check_writable, write_dataset
 from delagrange.parameters import CHANGEABLE_UNITS
 from delagrange.units import unit_name
 
 if TYPE_CHECKING:
     import xarray as xr
+    from matplotlib.figure import Figure
     from rich.table import Table
 
 _LOAD_UNITS = {"force": "N", "field_amplitude": "V/m", "field_bias": "V/m", "frequency": "Hz"}
 _STEPS = 500  # of the transient amplitude over a range without a step
 _SWEEP_STEPS = 60
 _MOST_ROWS = 40
-_RESOLUTION = 200  # [dots per inch]
 
 
 @dataclass(frozen=True)
@@ -93,7 +93,9 @@ def response(
           --frequency 350:480 --relaxation-time 0.01 --steady --dashpots relaxed \\
           --sweeps --plot damped.png
     """
-    _check_files(out, plot)
+    if out is not None:
+        check_writable(out)
+    check_plot(plot)
     load = {name: _load_value(name, context.params[name]) for name in _LOAD_UNITS}
     varied = _varied(load)
     _refuse_idle(
@@ -120,22 +122,16 @@ def response(
             result = _transient(model, load, varied, common, duration, quiet)
         if out is not None:
             write_dataset(_as_table(result) if out.suffix == ".csv" else result, out)
+        draw = None
         if plot is not None:
-            _draw(plot, result, model, load, varied, common, duration, sweeps, quiet)
+            draw = _drawing(result, model, load, varied, common, duration, sweeps, quiet)
     (_report_steady if steady else _report_transient)(result, varied)
-    for written in filter(None, (out, plot)):
-        print(f"written: {written}")
+    if out is not None:
+        print(f"written: {out}")
+    if draw is not None:
+        write_plot(draw, plot)
     if steady and result.attrs["search"] == "interrupted":
         raise Interrupted("the search was not finished; the branches found until then are above")
-
-
-def _check_files(out: Path | None, plot: Path | None) -> None:
-    if out is not None:
-        check_writable(out)
-    if plot is not None:
-        if plot.suffix not in (".png", ".pdf"):
-            raise ValueError(f"plot file {plot} must end in .png or .pdf, got {plot.suffix or 'no suffix'!r}")
-        check_file(plot)
 
 
 def _load_value(name: str, text: str | None) -> float | _Span:
@@ -227,8 +223,7 @@ def _stepped(
     ]
 
 
-def _draw(
-    path: Path,
+def _drawing(
     result: xr.Dataset,
     model: str,
     load: Mapping[str, float | _Span],
@@ -237,19 +232,15 @@ def _draw(
     duration: float,
     sweeps: bool,
     quiet: bool,
-) -> None:
+) -> Callable[[], Figure]:
+    """What draws the result, with what is to stand beside it computed."""
     from delagrange.figures.steady_figure import draw_steady, draw_transient
-    from delagrange.figures.style import journal_style
 
-    with journal_style():
-        if "branch" in result.dims:
-            transient = _transient(model, load, varied, common, duration, quiet)
-            stepped = _stepped(model, load, common, quiet) if sweeps else ()
-            figure = draw_steady(result, transient, stepped)
-        else:
-            figure = draw_transient(result, varied)
-        metadata = {"CreationDate": None} if path.suffix == ".pdf" else None
-        figure.savefig(path, dpi=_RESOLUTION, metadata=metadata)
+    if "branch" not in result.dims:
+        return lambda: draw_transient(result, varied)
+    transient = _transient(model, load, varied, common, duration, quiet)
+    stepped = _stepped(model, load, common, quiet) if sweeps else ()
+    return lambda: draw_steady(result, transient, stepped)
 
 
 def _as_table(result: xr.Dataset) -> xr.Dataset:

@@ -27,7 +27,7 @@ _SETTLED = 0.12  # of the time, before which the running exponents do not set th
 _FAINTEST = 1e-6  # of the highest amplitude, below which nothing is drawn
 _FAINTEST_BAND = 1e-4  # the same of a broad band
 _STILL = 1e-8  # amplitude [1] below which nothing moves
-GREY = "#999999"
+_GREY = "#999999"
 _REGULAR = ("periodic", "quasi-periodic")
 
 
@@ -121,7 +121,7 @@ def _draw_spectrum(axes: Axes, motion: xr.Dataset) -> None:
         axes.text(0.5, 0.5, "nothing moves" if band.size else "lost too early", transform=axes.transAxes,
                   ha="center", va="center")  # fmt: skip
         return
-    axes.plot(motion["band_frequency"].values, band, color=GREY, linewidth=0.7)
+    axes.plot(motion["band_frequency"].values, band, color=_GREY, linewidth=0.7)
     axes.set_yscale("log")
     regular = motion["verdict"].item() in _REGULAR
     floor = (_FAINTEST if regular else _FAINTEST_BAND) * np.max(band)

@@ -82,6 +82,8 @@ def draw_steady(
         panel_letter(axes, letter)
         axes.set_ylabel(notation_of(steady).amplitude_label)
         axes.margins(x=0.0)
+    if not steady.sizes["point"]:
+        _say_empty(all_axes[0])
     largest = _largest(steady, transient, sweeps)
     all_axes[0].set_ylim(0.0, largest)
     all_axes[0].set_title(_load_text(steady), loc="right", fontsize=8.0, pad=3.0)
@@ -92,6 +94,10 @@ def draw_steady(
     figure.legend(handles=entries, loc="outside upper center", ncols=min(len(entries), 4), columnspacing=1.2)
     caption(figure, _caption(steady, transient, sweeps))
     return figure
+
+
+def _say_empty(axes: Axes) -> None:
+    axes.text(0.5, 0.5, "no periodic motion found", transform=axes.transAxes, ha="center", va="center")
 
 
 def draw_transient(transient: xr.Dataset, varied: str) -> Figure:
@@ -159,15 +165,17 @@ def _draw_bifurcations(axes: Axes, steady: xr.Dataset, varied: str) -> None:
 
 def _largest(steady: xr.Dataset, transient: xr.Dataset | None, sweeps: Sequence[xr.Dataset]) -> float:
     """Top of the linear panel [1]: what was measured, where anything was, else the branches."""
-    measured = [
-        np.nanmax(data["amplitude"].values, initial=0.0) for data in (transient, *sweeps) if data is not None
-    ]
-    if not measured:
-        return 1.05 * float(steady["amplitude"].max())
+    measured = [_peak(data) for data in (transient, *sweeps) if data is not None]
+    everything = 1.05 * max(_peak(steady), *measured, 0.0) or 1.0
+    if not any(measured):
+        return everything
     at_folds = np.nanmax(steady["bifurcation_amplitude"].values, initial=0.0)
-    return min(
-        max(_ROOM * max(measured), 1.1 * at_folds), 1.05 * max(float(steady["amplitude"].max()), *measured)
-    )
+    return min(max(_ROOM * max(measured), 1.1 * at_folds), everything)
+
+
+def _peak(data: xr.Dataset) -> float:
+    """The largest amplitude [1]; zero where there is none, as where every motion is lost."""
+    return float(np.nanmax(data["amplitude"].values, initial=0.0))
 
 
 def _smallest(steady: xr.Dataset, transient: xr.Dataset | None) -> float:
@@ -180,7 +188,7 @@ def _smallest(steady: xr.Dataset, transient: xr.Dataset | None) -> float:
 
 
 def _shown_top(steady: xr.Dataset) -> float:
-    return 2.0 * max(float(steady["amplitude"].max()), 1e-9)
+    return 2.0 * _peak(steady) or 1.0
 
 
 def _entries(steady: xr.Dataset, transient: xr.Dataset | None, sweeps: Sequence[xr.Dataset]) -> list[Line2D]:

@@ -52,10 +52,18 @@ def sections_fill_an_area(runs: Runs, formulation: str | None) -> tuple[bool, st
     """A torus of dimension 3, or no torus: the section is no curve."""
     found = _each(runs, "uniaxial", formulation)
     spread = [_verdict(one) == "chaotic" or float(one["torus_dimension"]) > 2 for one in found]
-    dimensions = ", ".join(f"{float(one['torus_dimension']):g}" for one in found)
-    return all(spread), (
-        f"tori of dimension {dimensions}, the drive included: the section is a projected surface, neither a loop "
-        "nor disorder"
+    return all(spread), "; ".join(_section_text(one) for one in found)
+
+
+def _section_text(one: xr.Dataset) -> str:
+    """What a stroboscopic section cuts: of a torus, one dimension less."""
+    start, dimension = f"{float(one['frequency']):g} Hz: {_verdict(one)}", float(one["torus_dimension"])
+    if _verdict(one) not in _REGULAR:
+        return start
+    cut = {1: "points", 2: "loops", 3: "a projected surface, neither a loop nor disorder"}
+    what = cut.get(int(dimension), f"{dimension - 1:g} dimensions of it, projected")
+    return (
+        f"{start}, a torus of dimension {dimension:g}, the drive included, of which the section shows {what}"
     )
 
 

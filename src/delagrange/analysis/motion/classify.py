@@ -19,7 +19,6 @@ from delagrange.dashpots import EVOLVING, FROZEN, RELAXED, dashpot_places
 from delagrange.drive import Drive
 from delagrange.loss import COMPLETED, Limits
 from delagrange.parameters import SHENG_2015, Parameters
-from delagrange.tolerances import check_duration
 
 _VIBRATIONS = 8000  # of the fastest small vibration, to follow by default; 8.7 s of the paper's membrane
 _FORCINGS = 4000  # periods of the forcing, at least
@@ -61,8 +60,8 @@ def classify(
         model, force, field, formulation, lateral_dashpot, held_stretch, parameters, limits, material: as
             for `simulate`; the drives are constant or sines. A field without bias enters squared and
             forces at twice its frequency.
-        duration: time observed [s]; left out, 8000 periods of the fastest small vibration, and at least 4000 of
-            the forcing.
+        duration: time observed [s], at least 16 periods of the forcing; left out, 8000 periods of the fastest
+            small vibration, and at least 4000 of the forcing.
         transient: time [s] left out before; if left out itself, none with frozen dashpots (nothing is
             damped), else until volumes have contracted by exp(-30) in each direction, where that takes no more
             than four times the duration, and none where it takes longer.
@@ -82,7 +81,7 @@ def classify(
 
     Raises:
         ValueError: something given makes no sense; the message names it, its value, its unit and what is
-            allowed.
+            allowed. More than 2e7 samples are refused: a drive far slower than the membrane takes as many.
     """
     motion = make_motion(
         model, force, field, formulation=formulation, lateral_dashpot=lateral_dashpot,
@@ -90,29 +89,30 @@ def classify(
         choices=(FROZEN, EVOLVING, RELAXED), limits=limits, tolerance=tolerance, engine=engine,
         material=material,
     )  # fmt: skip
-    duration = _default_duration(motion) if duration is None else check_duration(duration)
-    left_out, settling = _transient(motion, transient, duration)
-    observation = observed(motion, motion.periods(duration), left_out, progress)
+    periods = _default_periods(motion) if duration is None else motion.periods(duration)
+    left_out, settling = _transient(motion, transient, periods)
+    observation = observed(motion, periods, left_out, progress)
     evidence = gather(observation, motion.model.COORDINATE_COUNT)
     verdict = lost(observation) if evidence is None else decide(evidence, settling)
     before = left_out * motion.forcing.period
     return _dataset(motion, observation, evidence, _with_notes(verdict, before, settling), before)
 
 
-def _default_duration(motion: Motion) -> float:
-    return max(_VIBRATIONS / motion.forcing.fastest, _FORCINGS * motion.forcing.period)
+def _default_periods(motion: Motion) -> int:
+    forcing = motion.forcing
+    return max(round(_VIBRATIONS / (forcing.fastest * forcing.period)), _FORCINGS)
 
 
-def _transient(motion: Motion, given: float | None, duration: float) -> tuple[int, float]:
+def _transient(motion: Motion, given: float | None, periods: int) -> tuple[int, float]:
     """Periods to leave out, and the time [s] that transients then still need to die out."""
     period = motion.forcing.period
     if given is not None:
-        return round((check_duration(given) if given else 0.0) / period), 0.0
+        return motion.transient_periods(given), 0.0
     if motion.dashpots == FROZEN:
         return 0, 0.0
     needed = _relaxation(motion)
-    if motion.dashpots == RELAXED or needed <= _AFFORDABLE * duration:
-        return int(np.ceil(needed / period)), 0.0
+    if motion.dashpots == RELAXED or needed <= _AFFORDABLE * periods * period:
+        return motion.transient_periods(needed + 0.5 * period), 0.0
     return 0, needed
 
 

@@ -13,6 +13,7 @@ from types import ModuleType
 import numpy as np
 import xarray as xr
 
+from delagrange.analysis.forcing import Forcing
 from delagrange.analysis.motion.motion import Motion, make_motion
 from delagrange.analysis.motion.observation import Observation, observe
 from delagrange.dashpots import EVOLVING, FROZEN
@@ -21,13 +22,13 @@ from delagrange.drive import Drive
 from delagrange.loss import Limits
 from delagrange.parameters import SHENG_2015, Parameters
 from delagrange.progress import progress_bar
-from delagrange.tolerances import check_duration
 
 _RUNNING = 50  # times at which the running estimate is given
 _LEFT_OUT = 0.25  # of the time, in which the tangent vectors find their directions
 _FEWEST = 64  # samples, without which nothing is said
 _BLOCKS = 8  # parts of the time whose means are compared
 _POWER = 2.0  # growth like the square of time is the fastest that a regular motion is expected to show
+MOST_SAMPLES = 20_000_000  # of a motion, some gigabytes
 _FAR = 5.0  # times what such growth amounts to: an exponent beyond is not made of it
 DEFINITION = (
     "mean rate over the last three quarters of the time, weighted by Hann's window, under which what "
@@ -124,7 +125,8 @@ def lyapunov_spectrum(
         model, force, field, formulation, lateral_dashpot, held_stretch, parameters, limits, material: as
             for `simulate`; the drives are constant or sines.
         duration: time observed [s], after
-        transient: time [s] that is left out before; both are rounded to periods of the forcing.
+        transient: time [s] that is left out before; both are rounded to periods of the forcing, of which at
+            least 16 are observed.
         initial_state: values of state variables at t = 0 by name; the rest is the reference state.
         dashpots: "frozen" where they stand at t = 0 (their directions are then left out of the spectrum), or
             "evolving".
@@ -146,9 +148,8 @@ def lyapunov_spectrum(
         held_stretch=held_stretch, parameters=parameters, initial_state=initial_state, dashpots=dashpots,
         choices=(FROZEN, EVOLVING), limits=limits, tolerance=tolerance, engine=engine, material=material,
     )  # fmt: skip
-    periods = motion.periods(check_duration(duration))
-    left_out = round((check_duration(transient) if transient else 0.0) / motion.forcing.period)
-    observation = observed(motion, periods, left_out, progress)
+    left_out = motion.transient_periods(transient)
+    observation = observed(motion, motion.periods(duration), left_out, progress)
     attributes = motion.attributes | {
         "duration": observation.duration,
         "transient": left_out * motion.forcing.period,
@@ -160,11 +161,26 @@ def lyapunov_spectrum(
 
 
 def observed(motion: Motion, periods: int, left_out: int = 0, progress: bool = False) -> Observation:
-    """The motion through `periods` periods of the forcing after `left_out`."""
+    """The motion through `periods` periods of the forcing after `left_out`.
+
+    Raises:
+        ValueError: more samples than `MOST_SAMPLES`.
+    """
+    _check_samples(motion.forcing, periods)
     total = (left_out + periods) * motion.forcing.period
     with progress_bar(progress, "following the motion", total, "s") as bar:
         return observe(
             motion.path, motion.flow, motion.forcing, motion.start, motion.moving, periods, left_out, bar
+        )
+
+
+def _check_samples(forcing: Forcing, periods: int) -> None:
+    samples = periods * forcing.samples
+    if samples > MOST_SAMPLES:
+        raise ValueError(
+            f"the motion would take {samples:.3g} samples, {periods:.4g} periods of {forcing.period:.3g} s with "
+            f"{forcing.samples:.4g} each, as its fastest small vibration is at {forcing.fastest:.3g} Hz; at most "
+            f"{MOST_SAMPLES:.3g} are allowed"
         )
 
 

@@ -20,6 +20,7 @@ from delagrange.loss import Limits
 from delagrange.models import check_offers, load_model
 from delagrange.parameters import Parameters
 from delagrange.problem import Problem, input_name, make_problem
+from delagrange.tolerances import DURATION_RANGE, check_duration
 from delagrange.units import with_unit
 
 TOLERANCE_RANGE = (1e-13, 1e-4)
@@ -43,8 +44,20 @@ class Motion:
         return self.path.problem.model
 
     def periods(self, duration: float) -> int:
-        """How many periods of the forcing make up `duration` [s], at least 16."""
-        return max(16, round(duration / self.forcing.period))
+        """How many periods of the forcing make up `duration` [s], at least 16.
+
+        Raises:
+            ValueError: a duration outside `delagrange.tolerances.DURATION_RANGE`.
+        """
+        return max(16, round(check_duration(duration) / self.forcing.period))
+
+    def transient_periods(self, transient: float) -> int:
+        """How many periods of the forcing make up `transient` [s], which may be 0.
+
+        Raises:
+            ValueError: a negative transient, or one longer than a duration may be.
+        """
+        return round(checks.within("transient", transient, "s", 0.0, DURATION_RANGE[1]) / self.forcing.period)
 
 
 def make_motion(

@@ -14,6 +14,7 @@ from delagrange.loss import COMPLETED
 from delagrange.progress import Progress
 
 _PARTS = 40  # pieces of a run, between which the progress is shown
+_AT_ONCE = 10_000  # periods of a transient
 _SEED = 1980  # of the first tangent vectors
 
 
@@ -73,11 +74,13 @@ def observe(
     The tangent is followed, and made orthonormal at each sample, after the transient only.
     """
     state = start
-    if transient:
-        before = flow(path, start, np.linspace(0.0, transient * forcing.period, transient + 1))
+    for first in range(0, transient, _AT_ONCE):
+        whole = np.arange(first, min(first + _AT_ONCE, transient) + 1)
+        before = flow(path, state, whole * forcing.period)
         if before.status != COMPLETED:
             return _lost_before(forcing, before.status, before.status_time, start, len(moving))
         state = before.state[-1]
+        progress.advance_to(float(whole[-1] * forcing.period))
     times = (transient + np.arange(periods * forcing.samples + 1) / forcing.samples) * forcing.period
     return _follow(path, flow, forcing, state, times, first_tangent(path, moving), progress)
 

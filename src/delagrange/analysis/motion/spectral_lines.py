@@ -141,7 +141,7 @@ def _gathered(spectrum: _Spectrum, model: _Model, power: float, most: int) -> _M
     left = total = _power(rest)
     while left > power and len(model.lines) < most:
         if len(model.lines) >= _MANY and left > _BROAD * total:
-            break  # a broad band, of which lines are no picture
+            return model  # a broad band, of which lines are no picture, however well they fit
         found = _new_lines(rest, model, min(_AT_ONCE, most - len(model.lines)))
         if len(found) == 0:
             break

@@ -21,7 +21,7 @@ _ROUNDING_GAIN = 40.0  # by then even rounding has grown to the size of the moti
 _EXPLAINED = 1e-5  # share of the power that may stay unexplained in a regular motion
 _FEWEST_PERIODS = 200  # of the forcing, and of the fastest small vibration
 _FAIR_PERIODS = 2000  # the same, of a horizon that is named as sufficient
-_FEWEST_TURNS = 10  # of the slowest strong line
+_FEWEST_TURNS = 10  # of the slowest strong line, and of the fastest small vibration of what is at rest
 _WALKING = 0.8  # K of the 0-1 test, against a regular motion
 _LONGER = 4.0
 
@@ -52,7 +52,7 @@ def lost(observation: Observation) -> Verdict:
 
 def decide(evidence: Evidence, settling: float = 0.0) -> Verdict:
     """The verdict on a motion that lasted, while transients needed `settling` [s] more to die out."""
-    if evidence.extent < _STILL:
+    if evidence.extent < _STILL and _could_move(evidence):
         return Verdict(AT_REST, (f"nothing moves by more than {_STILL:g}", _tangent_sentence(evidence)))
     facts = (_tangent_sentence(evidence), _lines_sentence(evidence), *_zero_one_sentences(evidence))
     if _parts(evidence) and not _explained(evidence) and _long(evidence):
@@ -63,6 +63,12 @@ def decide(evidence: Evidence, settling: float = 0.0) -> Verdict:
     unstable = ("unstable: neighbours part exponentially",) if _parts(evidence) else ()
     kind = PERIODIC if evidence.torus.dimension <= 1 else QUASI_PERIODIC
     return Verdict(kind, (*_torus_sentences(evidence), *facts, *unstable))
+
+
+def _could_move(evidence: Evidence) -> bool:
+    """Whether the membrane had the time to vibrate."""
+    observation = evidence.observation
+    return observation.duration >= _FEWEST_TURNS / observation.forcing.fastest
 
 
 def _parts(evidence: Evidence) -> bool:

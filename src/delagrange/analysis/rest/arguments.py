@@ -12,7 +12,7 @@ import numpy as np
 from delagrange import checks
 from delagrange.dataset import run_attributes, variable
 from delagrange.grid import Grid, make_grid
-from delagrange.initial import PREFIX
+from delagrange.initial import PREFIX, checked_initial
 from delagrange.loss import Limits
 from delagrange.models import load_model
 from delagrange.parameters import CHANGEABLE_UNITS, Parameters, check_material_names
@@ -93,6 +93,7 @@ def make_cases(
     given = {name: value for name, value in values.items() if name != "held_stretch" or value is not None}
     check_material_names({name: value for name, value in given.items() if name not in _NO_MATERIAL})
     checked = {name: _checked(name, value) for name, value in given.items()}
+    checked_initial(module, initial_state)
     single = {name: _one_number(name, value) for name, value in (initial_state or {}).items()}
     cases = Cases(module, parameters, make_grid(checked, _UNITS, ""), single, limits)
     cases.first_problem()

@@ -61,8 +61,9 @@ def breakdown_margin(statics: Statics, x: np.ndarray, criteria: Criteria) -> flo
     """
     if criteria.breakdown_field is None:
         return np.inf
-    strength = criteria.breakdown_field * thickness_stretch(statics, x) ** (-criteria.breakdown_exponent / 2)
-    return float(strength - true_field(statics, x))
+    with np.errstate(over="ignore", under="ignore"):  # a strength beyond double precision is infinite or zero
+        growth = np.power(thickness_stretch(statics, x), -criteria.breakdown_exponent / 2)
+    return float(criteria.breakdown_field * growth - true_field(statics, x))
 
 
 def tension_margin(statics: Statics, x: np.ndarray, criteria: Criteria) -> float:

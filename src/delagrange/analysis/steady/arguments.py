@@ -12,6 +12,8 @@ from delagrange.analysis.steady.shooting import LOAD_UNITS
 from delagrange.parameters import CHANGEABLE_UNITS, check_material_names
 from delagrange.units import shown, with_unit
 
+_MOST_VIBRATIONS = 10_000
+
 
 def varied_load(given: Mapping[str, object]) -> tuple[str, Range, dict[str, float]]:
     """Name and range of what is varied, and the load at its start.
@@ -60,6 +62,22 @@ def load_number(name: str, value: object) -> float:
     return number
 
 
+def check_frequencies(lowest: float, fastest: float) -> None:
+    """Refuse a period of the field in which the membrane would vibrate for ever.
+
+    lowest: of the field [Hz]; fastest: small vibration of the membrane [Hz]
+
+    Raises:
+        ValueError: more than 10000 vibrations in a period.
+    """
+    least = fastest / _MOST_VIBRATIONS
+    if lowest < least:
+        raise ValueError(
+            f"frequency must be at least {least:.3g} Hz, {_MOST_VIBRATIONS:g} small vibrations a period, "
+            f"got {lowest:g} Hz; what is so slow is in equilibrium at all times, see equilibria"
+        )
+
+
 def single_material(changes: Mapping[str, object]) -> dict[str, float]:
     """Single values of the material by name.
 
@@ -83,7 +101,12 @@ def seed_values(whole: Range, seeds: int | np.ndarray, varied: str) -> np.ndarra
     """
     if np.ndim(seeds) == 0:
         return whole.evenly(checks.count("seeds", seeds, 2, 10000))
-    values = np.atleast_1d(checks.finite("seeds", seeds, LOAD_UNITS[varied]))
+    values = np.asarray(checks.finite("seeds", seeds, LOAD_UNITS[varied]), dtype=float)
+    if values.ndim != 1 or not values.size:
+        raise ValueError(
+            f"seeds must be a count, or a one-dimensional array of values of {varied} in "
+            f"{LOAD_UNITS[varied]}, got {shown(seeds)}"
+        )
     for value in values:
         if not whole.contains(value):
             unit = LOAD_UNITS[varied]

@@ -12,7 +12,12 @@ from delagrange import checks
 from delagrange.analysis.continuation import Settings
 from delagrange.analysis.forcing import enters_squared
 from delagrange.analysis.rest.statics import FIELD, Statics, input_place, make_statics
-from delagrange.analysis.steady.arguments import seed_values, single_material, varied_load
+from delagrange.analysis.steady.arguments import (
+    check_frequencies,
+    seed_values,
+    single_material,
+    varied_load,
+)
 from delagrange.analysis.steady.branches import find_branches
 from delagrange.analysis.steady.dataset import PERIODIC_AMPLITUDE, steady_dataset
 from delagrange.analysis.steady.search import Range, Search
@@ -112,6 +117,8 @@ def steady_response(
     resting = make_problem(module, parameters, material, held_stretch, load["force"], 0.0)
     statics = make_statics(resting, dashpots, initial_state, limits)
     settings = _settings(resolution, most_points)
+    lowest = min(whole.start, whole.stop) if varied == "frequency" else load["frequency"]
+    check_frequencies(lowest, float(np.max(typical_sizes(statics.problem))) / (2 * np.pi))
     shooting = _shooting(statics, varied, whole, load, period_multiple, tolerance, engine, progress)
     ceiling = (
         np.inf if largest_amplitude is None else checks.positive("largest_amplitude", largest_amplitude, "1")

@@ -137,9 +137,10 @@ def stepped_sweep(
 def _frequencies(given: object) -> np.ndarray:
     values = np.atleast_1d(checks.positive("frequency", given, "Hz"))
     steps = np.diff(values)
-    if values.ndim != 1 or not (np.all(steps > 0) or np.all(steps < 0)):
+    if values.ndim != 1 or not values.size or not (np.all(steps > 0) or np.all(steps < 0)):
         raise ValueError(
-            f"frequency must be strictly increasing or strictly decreasing, got {with_unit(given, 'Hz')}"
+            "frequency must be strictly increasing or strictly decreasing, of at least one value, got "
+            f"{with_unit(given, 'Hz')}"
         )
     return values
 
