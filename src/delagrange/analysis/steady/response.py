@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from types import ModuleType
 
 import numpy as np
@@ -24,13 +25,14 @@ from delagrange.analysis.steady.search import Range, Search
 from delagrange.analysis.steady.shooting import Shooting, sine_field
 from delagrange.dashpots import FROZEN, dashpot_places
 from delagrange.dataset import run_attributes
+from delagrange.drive import Constant
 from delagrange.flow import Path, typical_sizes
 from delagrange.flows import resolve_flow
 from delagrange.initial import PREFIX
 from delagrange.loss import Limits
 from delagrange.models import load_model
 from delagrange.parameters import SHENG_2015, Parameters
-from delagrange.problem import make_problem
+from delagrange.problem import Problem, make_problem
 from delagrange.progress import progress_bar, working
 
 _TOLERANCE = 1e-8  # of Newton's last correction, scaled; the error after it is about its square
@@ -118,7 +120,7 @@ def steady_response(
     statics = make_statics(resting, dashpots, initial_state, limits)
     settings = _settings(resolution, most_points)
     lowest = min(whole.start, whole.stop) if varied == "frequency" else load["frequency"]
-    check_frequencies(lowest, float(np.max(typical_sizes(statics.problem))) / (2 * np.pi))
+    check_frequencies(lowest, _unloaded_vibration(statics.problem))
     shooting = _shooting(statics, varied, whole, load, period_multiple, tolerance, engine, progress)
     ceiling = (
         np.inf if largest_amplitude is None else checks.positive("largest_amplitude", largest_amplitude, "1")
@@ -134,6 +136,12 @@ def steady_response(
     about = run_attributes(problem, parameters.replace(**material), limits)
     about |= {PREFIX + name: float(value) for name, value in (initial_state or {}).items()}
     return steady_dataset(search, findings, about | _attributes(search, dashpots, findings.search))
+
+
+def _unloaded_vibration(problem: Problem) -> float:
+    """Frequency [Hz] of the fastest small vibration in the reference state without any load."""
+    unloaded = replace(problem, drives=tuple(Constant(0.0) for _ in problem.drives))
+    return float(np.max(typical_sizes(unloaded))) / (2 * np.pi)
 
 
 def _settings(resolution: int, most_points: int) -> Settings:
