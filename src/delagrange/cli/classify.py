@@ -11,7 +11,7 @@ import typer
 from delagrange.checks import scalar
 from delagrange.cli import console
 from delagrange.cli import options as o
-from delagrange.cli.drives import DriveOptions
+from delagrange.cli.drives import field_drive, force_drive
 from delagrange.cli.initial import initial_state
 from delagrange.cli.interruption import interruptible
 from delagrange.cli.plots import check_plot, write_plot
@@ -80,21 +80,14 @@ def classify(
     units = {entry.name: entry.unit for entry in load_model(model, formulation, lateral_dashpot).STATE}
     start = initial_state(initial, units) or {}
     start = {name: scalar(f"initial {name}", value, units[name]) for name, value in start.items()}
-    force_drive = DriveOptions(
-        "force", "N", "--force", "--force-frequency",
-        value=force, frequency=force_frequency, bias=force_bias, phase=force_phase,
-    ).drive()  # fmt: skip
-    field_drive = DriveOptions(
-        "field", "V/m", "--field-amplitude", "--frequency",
-        value=field_amplitude, frequency=frequency, bias=field_bias, phase=field_phase,
-    ).drive()  # fmt: skip
+    force_load, field_load = force_drive(context.params), field_drive(context.params)
     with interruptible("the motion was not followed to the end, nothing was written"):
         from delagrange.analysis.motion.classify import classify as judge
 
         motion = judge(
             model,
-            force=force_drive,
-            field=field_drive,
+            force=force_load,
+            field=field_load,
             formulation=formulation,
             lateral_dashpot=lateral_dashpot,
             held_stretch=held_stretch,

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from delagrange import checks
 from delagrange.cli import quantities
@@ -88,3 +90,34 @@ class DriveOptions:
                 raise ValueError(
                     f"{option} {given:g} {unit} changes nothing without {needed_option}; give that, too"
                 )
+
+
+def force_drive(given: Mapping[str, Any]) -> Drive:
+    """The force, from the values of a command's options by name; options that it has not count as not given."""
+    return _drive_of("force", "N", ("--force", "force"), ("--force-frequency", "force_frequency"), given)
+
+
+def field_drive(given: Mapping[str, Any]) -> Drive:
+    """The field, likewise."""
+    return _drive_of(
+        "field", "V/m", ("--field-amplitude", "field_amplitude"), ("--frequency", "frequency"), given
+    )
+
+
+def _drive_of(
+    name: str, unit: str, value: tuple[str, str], frequency: tuple[str, str], given: Mapping[str, Any]
+) -> Drive:
+    """`value` and `frequency`: option and name of its value."""
+    return DriveOptions(
+        name,
+        unit,
+        value[0],
+        frequency[0],
+        value=given[value[1]],
+        frequency=given[frequency[1]],
+        bias=given.get(f"{name}_bias"),
+        phase=given.get(f"{name}_phase"),
+        step_time=given.get(f"{name}_step_time"),
+        ramp=given.get(f"{name}_ramp"),
+        table=given.get(f"{name}_table"),
+    ).drive()

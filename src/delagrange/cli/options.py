@@ -346,6 +346,9 @@ OutFile = Annotated[
     ),
 ]
 OutFolder = Annotated[Path, _text("DIR", "Folder for the files; made if missing.", _OUTPUT, "--out")]
+PlotFile = Annotated[
+    Path | None, _text("FILE", "Draw the result: .png or .pdf.", _OUTPUT, "--plot", default="none")
+]
 Quiet = Annotated[bool, typer.Option("--quiet", help="Show no progress.", rich_help_panel=_OUTPUT)]
 
 # Steady response
@@ -423,9 +426,6 @@ TransientDuration = Annotated[
         default="0.1 s",
     ),
 ]
-ResponsePlot = Annotated[
-    Path | None, _text("FILE", "Draw the result: .png or .pdf.", _OUTPUT, "--plot", default="none")
-]
 
 # Equilibria and modes
 _STATICS = "At rest"
@@ -470,9 +470,6 @@ BreakdownExponent = Annotated[
 ]
 SmallestTension = Annotated[
     float, _number("Pa", "Nominal stress on an edge, in Pa, below which tension counts as lost.", _STATICS)
-]
-PlotFile = Annotated[
-    Path | None, _text("FILE", "Draw the result: .png or .pdf.", _OUTPUT, "--plot", default="none")
 ]
 
 # Kind of motion

@@ -72,7 +72,7 @@ def response(
     most_points: o.MostPoints = 400,
     sweeps: o.Sweeps = False,
     duration: o.TransientDuration = 0.1,
-    plot: o.ResponsePlot = None,
+    plot: o.PlotFile = None,
     out: o.OutFile = None,
     quiet: o.Quiet = False,
 ) -> None:

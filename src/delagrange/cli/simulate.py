@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 import typer
 
 from delagrange.cli import console
 from delagrange.cli import options as o
-from delagrange.cli.drives import DriveOptions
+from delagrange.cli.drives import field_drive, force_drive
 from delagrange.cli.interruption import interruptible
-from delagrange.drive import Drive
 from delagrange.files import check_writable, write_dataset
 from delagrange.parameters import CHANGEABLE_UNITS
 
@@ -78,15 +76,15 @@ def simulate(
     """
     if out is not None:
         check_writable(out)
-    force_drive, field_drive = _force(context.params), _field(context.params)
+    force_load, field_load = force_drive(context.params), field_drive(context.params)
     with interruptible("the run was not finished, nothing was written"):
         from delagrange.simulation import simulate as integrate
 
         run = integrate(
             model,
             duration=duration,
-            force=force_drive,
-            field=field_drive,
+            force=force_load,
+            field=field_load,
             held_stretch=held_stretch,
             formulation=formulation,
             lateral_dashpot=lateral_dashpot,
@@ -103,38 +101,6 @@ def simulate(
     _report(run)
     if out is not None:
         print(f"written: {out}")
-
-
-def _force(given: Mapping[str, Any]) -> Drive:
-    return DriveOptions(
-        "force",
-        "N",
-        "--force",
-        "--force-frequency",
-        value=given["force"],
-        frequency=given["force_frequency"],
-        bias=given["force_bias"],
-        phase=given["force_phase"],
-        step_time=given["force_step_time"],
-        ramp=given["force_ramp"],
-        table=given["force_table"],
-    ).drive()
-
-
-def _field(given: Mapping[str, Any]) -> Drive:
-    return DriveOptions(
-        "field",
-        "V/m",
-        "--field-amplitude",
-        "--frequency",
-        value=given["field_amplitude"],
-        frequency=given["frequency"],
-        bias=given["field_bias"],
-        phase=given["field_phase"],
-        step_time=given["field_step_time"],
-        ramp=given["field_ramp"],
-        table=given["field_table"],
-    ).drive()
 
 
 def _report(run: xr.Dataset) -> None:
