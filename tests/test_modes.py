@@ -112,6 +112,7 @@ def test_relaxed_dashpots_damp_and_relax():
     np.testing.assert_allclose(found["stretch"], frozen_there["stretch"], rtol=1e-12)
     np.testing.assert_allclose(found["frequency"], frozen_there["frequency"], rtol=1e-9)  # τ is long
     assert 0 < float(found["decay_rate"][0]) < 1
+    assert "1e-15" in found["decay_rate"].attrs["accuracy"]
     assert 0 < float(found["relaxation_rate"][0]) < 1
     # the sum of all rates is the trace of the Jacobian
     model = dl.load_model("equal_biaxial")

@@ -9,7 +9,7 @@ from scipy.optimize import root
 
 import delagrange as dl
 from delagrange.analysis.continuation import Lost, solve
-from delagrange.analysis.steady.floquet import multipliers
+from delagrange.analysis.steady.floquet import spectrum
 from delagrange.analysis.steady.shooting import Shooting
 from delagrange.dashpots import frozen
 from delagrange.flow import Path, typical_sizes
@@ -80,7 +80,7 @@ def test_the_monodromy_matrix_is_that_of_scipy():
         shift = step * np.eye(6)[place]
         columns.append((end(orbit.state + shift) - end(orbit.state - shift)) / (2 * step))
     expected = np.linalg.eigvals(np.array(columns).T)
-    found = multipliers(orbit)
+    found = spectrum(orbit).multipliers
     assert all(np.min(np.abs(expected - value)) < 1e-7 for value in found)
 
 

@@ -98,11 +98,6 @@ def stable_until(statics: Statics, piece: Piece) -> Point | None:
     return crossings[0] if crossings else piece.points[0]
 
 
-def is_stable(statics: Statics, piece: Piece) -> bool:
-    """Whether the piece is stable in its middle."""
-    return growing_directions(statics, piece.points[len(piece.points) // 2].x) == 0
-
-
 def _holds(statics: Statics, piece: Piece, x: np.ndarray) -> bool:
     return piece.covers(x[-1]) and same(point_at(statics, piece, float(x[-1])).x, x)
 

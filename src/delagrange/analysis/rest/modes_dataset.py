@@ -60,7 +60,7 @@ def _rates(
     if damped:
         decays = np.where(vibrates, -rates.real, np.nan)
         data["decay_rate"] = variable(
-            dimensions, decays, "1/s", "rate at which the dashpots damp the vibration"
+            dimensions, decays, "1/s", "rate at which the dashpots damp the vibration", accuracy=_ROUND_OFF
         )
     return data
 

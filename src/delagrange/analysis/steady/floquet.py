@@ -128,21 +128,6 @@ def _count_of_parts(orbit: Orbit) -> int:
     return int(np.clip(np.ceil((sizes[0] - smallest) / np.log(_OF_PART)), 2, _MOST_PARTS))
 
 
-def multipliers(orbit: Orbit) -> np.ndarray:
-    """(n_unknowns,) of complex, as in `Spectrum`."""
-    return spectrum(orbit).multipliers
-
-
-def product_error(orbit: Orbit) -> float:
-    """As of `Spectrum`."""
-    return spectrum(orbit).product_error
-
-
-def stability(orbit: Orbit, conservative: bool) -> str:
-    """As of `Spectrum`."""
-    return spectrum(orbit).stability(conservative)
-
-
 def _on_unit_circle(monodromy: np.ndarray) -> bool:
     """Whether all multipliers of a conservative motion lie on the unit circle.
 
@@ -276,6 +261,6 @@ def _leaves_circle(orbit: Orbit, conservative: bool) -> bool:
     """Whether complex multipliers leave the unit circle, and not real ones whose product is 1."""
     if conservative:
         return bool(abs(np.trace(orbit.monodromy)) < 4)
-    values = multipliers(orbit)
+    values = spectrum(orbit).multipliers
     pairs = [pair for pair in combinations(values, 2) if pair[0].imag > _COMPLEX]
     return any(abs(one * other - 1) < 1e-5 and abs(one - other.conjugate()) < 1e-8 for one, other in pairs)

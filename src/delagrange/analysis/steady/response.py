@@ -11,7 +11,7 @@ import xarray as xr
 
 from delagrange import checks
 from delagrange.analysis.continuation import Settings
-from delagrange.analysis.forcing import enters_squared
+from delagrange.analysis.forcing import enters_squared, fastest_vibration
 from delagrange.analysis.rest.statics import FIELD, Statics, input_place, make_statics
 from delagrange.analysis.steady.arguments import (
     check_frequencies,
@@ -120,7 +120,7 @@ def steady_response(
     statics = make_statics(resting, dashpots, initial_state, limits)
     settings = _settings(resolution, most_points)
     lowest = min(whole.start, whole.stop) if varied == "frequency" else load["frequency"]
-    check_frequencies(lowest, _unloaded_vibration(statics.problem))
+    check_frequencies(lowest, fastest_vibration(_unloaded(statics.problem), statics.rest))
     shooting = _shooting(statics, varied, whole, load, period_multiple, tolerance, engine, progress)
     ceiling = (
         np.inf if largest_amplitude is None else checks.positive("largest_amplitude", largest_amplitude, "1")
@@ -138,10 +138,8 @@ def steady_response(
     return steady_dataset(search, findings, about | _attributes(search, dashpots, findings.search))
 
 
-def _unloaded_vibration(problem: Problem) -> float:
-    """Frequency [Hz] of the fastest small vibration in the reference state without any load."""
-    unloaded = replace(problem, drives=tuple(Constant(0.0) for _ in problem.drives))
-    return float(np.max(typical_sizes(unloaded))) / (2 * np.pi)
+def _unloaded(problem: Problem) -> Problem:
+    return replace(problem, drives=tuple(Constant(0.0) for _ in problem.drives))
 
 
 def _settings(resolution: int, most_points: int) -> Settings:
