@@ -288,6 +288,18 @@ def forget(name):
     kernels.load_kernel.cache_clear()
 
 
+def exact_swing(drive, start, end):
+    """The integral of the sine from start to end, and its slopes by phase and by frequency, in mpmath's precision."""
+    first, last, phase = (mpmath.mpf(value) for value in (start, end, drive.phase))
+    rate = 2 * mpmath.pi * mpmath.mpf(drive.frequency)
+    swing = (mpmath.cos(rate * first + phase) - mpmath.cos(rate * last + phase)) / rate
+    turned = (mpmath.sin(rate * last + phase) - mpmath.sin(rate * first + phase)) / rate
+    by_frequency = mpmath.quad(
+        lambda time: 2 * mpmath.pi * time * mpmath.cos(rate * time + phase), mpmath.linspace(first, last, 9)
+    )
+    return swing, turned, by_frequency
+
+
 @pytest.mark.parametrize("start", [0.0, 20.0, 1e6 / 3])
 def test_the_phase_is_kept_after_many_periods(integral, start):
     """Half a million seconds are 2.7e8 periods: their product with the frequency, rounded, is off by 2e-7 rad."""
@@ -296,20 +308,13 @@ def test_the_phase_is_kept_after_many_periods(integral, start):
     times = start + np.array([0.0, 0.25, 0.7, 2.0]) / drive.frequency
     sources = (Source(0, AMPLITUDE), Source(0, PHASE), Source(0, FREQUENCY))
     travel = flow_compiled(path, np.zeros(1), times, np.zeros((1, 3)), sources)
-    mpmath.mp.dps = 40
-    rate = 2 * mpmath.pi * mpmath.mpf(drive.frequency)
-    first, last = (rate * mpmath.mpf(t) + mpmath.mpf(drive.phase) for t in (times[0], times[-1]))
-    swing = float((mpmath.cos(first) - mpmath.cos(last)) / rate)
+    with mpmath.workdps(40):
+        swing, turned, by_frequency = (float(value) for value in exact_swing(drive, times[0], times[-1]))
     resolution = 1e-4 * 1e-12 + 4e-16 * start  # of the times themselves
     assert travel.state[-1, 0] == pytest.approx(swing, abs=resolution)
     assert travel.tangent[0, 0] == pytest.approx(swing, abs=resolution)
-    turned = float((mpmath.sin(last) - mpmath.sin(first)) / rate)
     assert travel.tangent[0, 1] == pytest.approx(turned, abs=resolution)
-    by_frequency = mpmath.quad(
-        lambda t: 2 * mpmath.pi * t * mpmath.cos(rate * t + mpmath.mpf(drive.phase)),
-        mpmath.linspace(mpmath.mpf(times[0]), mpmath.mpf(times[-1]), 9),
-    )
-    assert travel.tangent[0, 2] == pytest.approx(float(by_frequency), abs=(1 + 10 * start) * resolution)
+    assert travel.tangent[0, 2] == pytest.approx(by_frequency, abs=(1 + 10 * start) * resolution)
 
 
 @given(
