@@ -77,9 +77,9 @@ def _integrate_into(
 
 def _without_lost_at_start(problem: Problem, lanes: Lanes, settings: Settings, outcome: Outcome) -> Lanes:
     """A lane is lost before it moves where its initial or held stretch is beyond the limits."""
-    principal = problem.principal_stretches(lanes.time, lanes.state)
-    lost = np.broadcast_to(~(loss.margin(principal, settings.limits) > 0), lanes.index.shape)
-    kind = np.broadcast_to(loss.kind_of_loss(principal, settings.limits), lost.shape)
+    lost = ~(problem.margin(lanes.time, lanes.state, settings.limits) > 0)
+    lost = np.broadcast_to(lost, lanes.index.shape)
+    kind = np.broadcast_to(problem.kind_of_loss(lanes.time, lanes.state, settings.limits), lost.shape)
     outcome.record_into(lanes.take(np.flatnonzero(lost)), kind[lost])
     return lanes.take(np.flatnonzero(~lost))
 
@@ -108,7 +108,7 @@ def _run_segment(
     arrived = [lanes.take(np.arange(0))]
     while len(lanes.index):
         trial = _try_step(running, lanes, settings, span[1], buffer)
-        lanes, lost = _judge(running, trial, settings, outcome, sampling)
+        lanes, lost = _judge(running, trial, span[1], settings, outcome, sampling)
         leaving = lost | (lanes.time >= span[1])
         if np.any(leaving):
             there = lanes.take(np.flatnonzero(leaving & ~lost))
@@ -160,16 +160,23 @@ def _try_step(problem: Problem, lanes: Lanes, settings: Settings, stop: float, b
 
 
 def _judge(
-    problem: Problem, trial: Trial, settings: Settings, outcome: Outcome, sampling: Sampling | None
+    problem: Problem,
+    trial: Trial,
+    stop: float,
+    settings: Settings,
+    outcome: Outcome,
+    sampling: Sampling | None,
 ) -> tuple[Lanes, np.ndarray]:
-    """The lanes after the step, and which of them are lost (and written to `outcome`, as samples are)."""
-    principal = problem.principal_stretches(trial.end, trial.state)
-    beyond = trial.accepted & ~(loss.margin(principal, settings.limits) > 0)
+    """The lanes after the step, and which of them are lost (and written to `outcome`, as samples are).
+
+    A short step that reaches `stop`, the end of the segment [s], is no sign of a hopeless run.
+    """
+    beyond = trial.accepted & ~(problem.margin(trial.end, trial.state, settings.limits) > 0)
     smallest = np.maximum(
         settings.control.smallest_step(trial.before.time), loss.SMALLEST_STEP * settings.duration
     )
     resolved = trial.next_step >= smallest  # not so for NaN
-    cut = trial.accepted & (trial.before.step >= smallest)  # a short step to the end of a segment
+    cut = trial.accepted & ((trial.before.step >= smallest) | (trial.end >= stop))
     stuck = ~resolved & ~cut
     if np.any(beyond):
         trial = _cut_at_loss(problem, trial, settings, np.flatnonzero(beyond))
@@ -178,8 +185,8 @@ def _judge(
     integrals = widen_integrals(problem, trial, settings)
     lanes = _after(trial, *widen(problem, trial, settings), integrals)
     if np.any(beyond | stuck):
-        principal = problem.principal_stretches(trial.end, trial.state)
-        kind = np.where(stuck, loss.DIVERGED, loss.kind_of_loss(principal, settings.limits))
+        lost_how = problem.kind_of_loss(trial.end, trial.state, settings.limits)
+        kind = np.where(stuck, problem.kind_of_failure(trial.before.time, trial.before.state), lost_how)
         lost = np.flatnonzero(beyond | stuck)
         outcome.record_into(lanes.take(lost), kind[lost])
     return lanes, beyond | stuck
@@ -193,9 +200,7 @@ def _cut_at_loss(problem: Problem, trial: Trial, settings: Settings, places: np.
 
     def distance(fraction: np.ndarray) -> np.ndarray:
         state = evaluate(polynomial, fraction)
-        return loss.margin(
-            some.principal_stretches(before.time + fraction * lost.step, state), settings.limits
-        )
+        return some.margin(before.time + fraction * lost.step, state, settings.limits)
 
     crossing = first_crossing(distance, places.shape)
     fraction, end, state = trial.fraction.copy(), trial.end.copy(), trial.state.copy()
