@@ -5,7 +5,7 @@ What does not move is computed once a run, products are shared, and an evaluatio
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 
 import sympy as sp
 
@@ -91,14 +91,27 @@ def _simple_denominators(
         for base in denominators((*(a.expression for a in kept), *outputs))
         if base in definitions or not base.is_Symbol
     ]
-    replaced, below = {}, []
+    replaced: dict[sp.Expr, sp.Expr] = {}
+    below: dict[sp.Expr, Assignment] = {}  # by numerator: forms of one denominator share it
     for base in compound:
         above, under = _fraction(_written_out(base, definitions))
-        name = sp.Symbol(f"{base.name if base.is_Symbol else f'denominator_{len(below) + 1}'}_numerator")
-        below.append(Assignment(name.name, above, "" if below else "denominators, cleared of fractions"))
-        replaced[1 / base] = under / name
-    kept = tuple(_changed(a, a.expression.xreplace(replaced)) for a in kept)
-    return kept, tuple(output.xreplace(replaced) for output in outputs), tuple(below)
+        sign = -1 if -above in below else 1
+        own = base.name if base.is_Symbol else f"denominator_{len(below) + 1}"
+        named = Assignment(f"{own}_numerator", above, "" if below else "denominators, cleared of fractions")
+        name = below.setdefault(sign * above, named).name
+        replaced[base] = sign * under / sp.Symbol(name)
+    kept, outputs = _mapped(lambda expression: _without_compound(expression, replaced), kept, outputs)
+    return kept, outputs, tuple(below.values())
+
+
+def _without_compound(expression: sp.Expr, reciprocals: Mapping[sp.Expr, sp.Expr]) -> sp.Expr:
+    """The expression with every negative integer power of a denominator as a power of its reciprocal."""
+    powers = {
+        power: reciprocals[power.base] ** -power.exp
+        for power in expression.atoms(sp.Pow)
+        if power.base in reciprocals and power.exp.is_Integer and power.exp.is_negative
+    }
+    return expression.xreplace(powers)
 
 
 def _written_out(expression: sp.Expr, definitions: dict[sp.Symbol, sp.Expr]) -> sp.Expr:

@@ -8,10 +8,10 @@ import sympy as sp
 
 from delagrange.derive.code_lines import broken, unpacked
 from delagrange.derive.kernel_spec import Assignment, KernelFunction
-from delagrange.derive.printer import ExpressionPrinter
+from delagrange.derive.printer import NUMPY_FUNCTIONS, ExpressionPrinter
 from delagrange.derive.symbols import Quantity
 
-PRINTER = ExpressionPrinter(lambda symbol: symbol.name, {sp.log: "np.log", sp.exp: "np.exp"})
+PRINTER = ExpressionPrinter(lambda symbol: symbol.name, NUMPY_FUNCTIONS)
 
 
 def assignment_lines(assignment: Assignment, indent: str) -> list[str]:

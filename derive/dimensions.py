@@ -13,7 +13,7 @@ from typing import TypeVar
 
 import sympy as sp
 
-from delagrange.derive.symbols import QUANTITIES
+from delagrange.derive.symbols import QUANTITIES, Quantity
 
 _BASE = ("kg", "m", "s", "A")
 _Item = TypeVar("_Item", bound=Hashable)
@@ -104,6 +104,7 @@ _UNITS: Mapping[str, Dimension] = {
     "C": Dimension(s=Fraction(1), A=Fraction(1)),
     "V": Dimension(Fraction(1), Fraction(2), Fraction(-3), Fraction(-1)),
     "F": Dimension(Fraction(-1), Fraction(-2), Fraction(4), Fraction(2)),
+    "S": Dimension(Fraction(-1), Fraction(-2), Fraction(3), Fraction(2)),
 }
 
 
@@ -123,9 +124,9 @@ def _power_text(name: str, power: Fraction) -> str:
     return f"{name}^{power}" if power.denominator == 1 else f"{name}^({power})"
 
 
-def symbol_dimensions() -> dict[sp.Symbol, Dimension]:
-    """The dimension of every symbol of the symbol table."""
-    return {quantity.symbol: Dimension.of_unit(quantity.unit) for quantity in QUANTITIES}
+def symbol_dimensions(quantities: tuple[Quantity, ...] = QUANTITIES) -> dict[sp.Symbol, Dimension]:
+    """The dimension of every symbol of a table of quantities, that of the paper where none is given."""
+    return {quantity.symbol: Dimension.of_unit(quantity.unit) for quantity in quantities}
 
 
 def most_common(items: Sequence[_Item]) -> _Item:

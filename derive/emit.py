@@ -7,20 +7,21 @@ the same text on any machine: no date, no path, no host, no set iterated.
 from __future__ import annotations
 
 import textwrap
+from collections.abc import Mapping
 from typing import Any
 
 import sympy as sp
 
 from delagrange.derive.code_lines import WIDTH, broken, unpacked
 from delagrange.derive.kernel_spec import Assignment, KernelFunction, KernelSpec
-from delagrange.derive.printer import PAPER_TEXT, ExpressionPrinter
+from delagrange.derive.printer import NUMPY_FUNCTIONS, ExpressionPrinter, text_printer
 from delagrange.derive.symbols import Quantity
 from delagrange.derive.template import render
 from delagrange.derive.verdict import Outcome, Verdict
 
 _TEMPLATE = "numpy_module.py.jinja"
 
-_NUMPY = ExpressionPrinter(lambda symbol: symbol.name, {sp.log: "np.log", sp.exp: "np.exp"})
+_NUMPY = ExpressionPrinter(lambda symbol: symbol.name, NUMPY_FUNCTIONS)
 
 
 def _assignment_lines(assignment: Assignment) -> list[str]:
@@ -79,15 +80,35 @@ def _function_view(function: KernelFunction, spec: KernelSpec) -> dict[str, Any]
     }
 
 
-def _equation_lines(left: sp.Expr, right: sp.Expr) -> list[str]:
-    return broken(f"{PAPER_TEXT(left)} = ", right, PAPER_TEXT, "    ")
+def _equation_lines(left: sp.Expr, right: sp.Expr, printer: ExpressionPrinter) -> list[str]:
+    return broken(f"{printer(left)} = ", right, printer, "    ")
 
 
-def _verdict_line(verdict: Verdict) -> str:
+def _verdict_line(verdict: Verdict, printer: ExpressionPrinter) -> str:
     text = f"Eq. ({verdict.number}): {verdict.outcome}"
     if verdict.outcome is Outcome.SCALED:
-        text += f" of the derived one by {PAPER_TEXT(verdict.factor)}"
+        text += f" of the derived one by {printer(verdict.factor)}"
     return text
+
+
+def _source_line(source: str) -> str:
+    return textwrap.fill(source, WIDTH, initial_indent="    ", subsequent_indent="        ")
+
+
+def _default_lines(defaults: Mapping[str, float]) -> list[str]:
+    return [f"    {name!r}: {float(value)!r},".replace("'", '"') for name, value in defaults.items()]
+
+
+def _start_text(spec: KernelSpec) -> str:
+    held = bool(any(value.free_symbols for value in spec.reference_state)) or spec.reactions != ()
+    if spec.origin.start:
+        return spec.origin.start
+    if held:
+        return (
+            "State at rest with the free axis undeformed; a dashpot along the held axis has relaxed "
+            "to its stretch."
+        )
+    return "State at rest in the reference configuration."
 
 
 def _as_float(value: sp.Expr) -> str:
@@ -101,18 +122,27 @@ def _reference_names(spec: KernelSpec) -> list[str]:
 
 def _view(spec: KernelSpec) -> dict[str, Any]:
     """Everything that the template places, ready as text."""
-    names = _reference_names(spec)
+    names, printer = _reference_names(spec), text_printer(spec.quantities)
     return {
+        "command": spec.origin.command,
+        "body": spec.origin.body,
+        "notation": spec.origin.notation,
+        "sources": "\n".join(_source_line(source) for source in spec.origin.sources),
+        "has_defaults": spec.defaults is not None,
+        "defaults": "\n".join(_default_lines(spec.defaults or {})),
+        "start": _start_text(spec),
         "title": spec.title,
         "name": spec.name,
         "load_case": spec.load_case,
         "formulation": spec.formulation,
         "remark": textwrap.fill(spec.remark, WIDTH),
         "equations": "\n".join(
-            line for left, right in spec.formulas for line in _equation_lines(left, right)
+            line for left, right in spec.formulas for line in _equation_lines(left, right, printer)
         ),
         "verdicts": "\n".join(
-            textwrap.fill(_verdict_line(v), WIDTH, initial_indent="    ", subsequent_indent="        ")
+            textwrap.fill(
+                _verdict_line(v, printer), WIDTH, initial_indent="    ", subsequent_indent="        "
+            )
             for v in spec.verdicts
         ),
         "digest": spec.digest,
@@ -125,7 +155,6 @@ def _view(spec: KernelSpec) -> dict[str, Any]:
         "functions": [_function_view(function, spec) for function in spec.functions],
         "reference_lines": "\n".join([] if set(names) <= {"_"} else unpacked(names, "parameters")),
         "reference_state": ", ".join(_as_float(value) for value in spec.reference_state),
-        "held": bool(any(value.free_symbols for value in spec.reference_state)) or spec.reactions != (),
         "state_size": len(spec.state),
     }
 

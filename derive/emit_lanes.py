@@ -11,7 +11,8 @@ from typing import Any
 
 import sympy as sp
 
-from delagrange.derive.code_lines import WIDTH
+from delagrange.derive.arranged import operations_of
+from delagrange.derive.code_lines import WIDTH, broken
 from delagrange.derive.compiled_lines import (
     PRINTER,
     assignment_lines,
@@ -19,7 +20,7 @@ from delagrange.derive.compiled_lines import (
     extreme_stretches_lines,
 )
 from delagrange.derive.kernel_spec import KernelFunction
-from delagrange.derive.lane_rows import result_rows, table_rows, total, work_rows
+from delagrange.derive.lane_rows import Rows, placed, result_rows, table_rows, total, work_rows
 from delagrange.derive.lane_spec import LaneSpec
 from delagrange.derive.runge_kutta import Pair, Row, Stage, dop853, quadrature
 from delagrange.derive.sine import sine_coefficients
@@ -29,6 +30,7 @@ _TEMPLATE = "lanes_module.py.jinja"
 _LANES = 64  # enough to hide how long an operation takes, and to share what a loop costs to set up
 _SINE_TERMS = 8  # right to 4e-16
 _QUADRATURE_POINTS = 8  # exact for the square of the interpolant, of degree 14
+_ENDS = ("LEAST", "MOST")  # rows of the stretches at the ends of queued steps
 _CONTROL = {"safety": 0.9, "growth": 0.03, "memory": 0.015}
 
 
@@ -48,6 +50,7 @@ def _view(spec: LaneSpec, pair: Pair) -> dict[str, Any]:
         "constants_body": "\n".join(constants_lines(spec.model.parameters, spec.volume, spec.constants)),
         "rates_body": "\n".join(_rates_lines(spec)),
         "stretches_body": "\n".join(_stretches_lines(spec)),
+        **_limits(spec),
         "sine_body": "\n".join(_horner_lines(sine)),
         "stages": [_stage_view(stage, dict(pair.weights), "work") for stage in pair.stages],
         "extra_stages": [_stage_view(stage, {}, "queue") for stage in pair.extra_stages],
@@ -62,10 +65,21 @@ def _view(spec: LaneSpec, pair: Pair) -> dict[str, Any]:
     }
 
 
+def _limits(spec: LaneSpec) -> dict[str, Any]:
+    """Whether the energies of the model have limits, and what is left to them."""
+    validity = spec.validity
+    return {
+        "has_limits": validity is not None,
+        "validity_body": "" if validity is None else "\n".join(_validity_lines(validity, spec)),
+        "validity_operations": 0 if validity is None else operations_of(validity),
+    }
+
+
 def _names_and_sizes(spec: LaneSpec, pair: Pair) -> dict[str, Any]:
-    work = work_rows(spec, pair.last + 1 + len(pair.extra_stages))
+    work = _needed(work_rows(spec, pair.last + 1 + len(pair.extra_stages)), spec)
     table, results = table_rows(spec), result_rows(spec)
     return {
+        "command": spec.model.origin.command,
         "title": spec.model.title,
         "name": spec.model.name,
         "digest": spec.model.digest,
@@ -83,6 +97,13 @@ def _names_and_sizes(spec: LaneSpec, pair: Pair) -> dict[str, Any]:
         "result_rows": results,
         "result_size": total(results),
     }
+
+
+def _needed(rows: tuple[Rows, ...], spec: LaneSpec) -> tuple[Rows, ...]:
+    """Where energies have limits, a lost step is marked before it is queued, and its end is looked at no more."""
+    if spec.validity is None:
+        return rows
+    return placed((row.name, row.count, row.meaning) for row in rows if row.name not in _ENDS)
 
 
 def _sine_operations(terms: int) -> int:
@@ -160,3 +181,7 @@ def _rates_lines(spec: LaneSpec) -> list[str]:
 def _stretches_lines(spec: LaneSpec) -> list[str]:
     function = spec.principal_stretches
     return [*_body(function, spec, "    "), *extreme_stretches_lines(function)]
+
+
+def _validity_lines(validity: KernelFunction, spec: LaneSpec) -> list[str]:
+    return [*_body(validity, spec, "    "), *broken("return ", validity.outputs[0], PRINTER, "    ")]

@@ -59,6 +59,7 @@ def _view(spec: VariationalSpec, pair: Pair) -> dict[str, Any]:
     model, places = spec.model, _places(spec)
     return {
         **_CONTROL,
+        "command": model.origin.command,
         "title": model.title,
         "name": model.name,
         "digest": model.digest,
@@ -78,6 +79,8 @@ def _view(spec: VariationalSpec, pair: Pair) -> dict[str, Any]:
         "constants_body": "\n".join(constants_lines(model.parameters, spec.volume, spec.constants)),
         "motion_body": "\n".join(_motion_lines(spec)),
         "stretches_body": "\n".join(_stretches_lines(spec)),
+        "has_limits": spec.validity is not None,
+        "validity_body": "\n".join(_validity_lines(spec)),
     }
 
 
@@ -190,3 +193,11 @@ def _stretches_lines(spec: VariationalSpec) -> list[str]:
     function = spec.principal_stretches
     statements = (line for a in function.assignments for line in assignment_lines(a, "    "))
     return [*_loads(function, spec), *statements, *extreme_stretches_lines(function)]
+
+
+def _validity_lines(spec: VariationalSpec) -> list[str]:
+    function = spec.validity
+    if function is None:
+        return []
+    statements = (line for a in function.assignments for line in assignment_lines(a, "    "))
+    return [*_loads(function, spec), *statements, *broken("return ", function.outputs[0], PRINTER, "    ")]

@@ -5,15 +5,17 @@ Each function below says how one function of a model module is computed from nam
 
 from __future__ import annotations
 
-import hashlib
+from collections.abc import Mapping
 
 import sympy as sp
 
-from delagrange.derive import symbols as s
 from delagrange.derive.euler_lagrange import EquationsOfMotion
-from delagrange.derive.kernel_function import kernel_function, named
-from delagrange.derive.kernel_spec import Assignment, KernelFunction, KernelSpec
-from delagrange.derive.load_cases import REACTION_IN_POTENTIAL
+from delagrange.derive.kernel_electrodes import charge_assignments, charge_powers, electrodes
+from delagrange.derive.kernel_energies import dashpot_power, potential, validity
+from delagrange.derive.kernel_formulas import digest, governing_equations
+from delagrange.derive.kernel_function import kernel_function
+from delagrange.derive.kernel_spec import PAPER, Assignment, KernelFunction, KernelSpec, Origin
+from delagrange.derive.reference_state import reference_state
 from delagrange.derive.verdict import Verdict
 
 
@@ -93,6 +95,7 @@ def _rhs(eom: EquationsOfMotion) -> KernelFunction:
     )
     moving = [*(c.rate for c in load_case.coordinates), *(c.acceleration for c in load_case.coordinates)]
     moving += [i.rate for i in load_case.internals]
+    moving += [] if eom.charge_balance is None else [eom.charge_balance.rate]
     return kernel_function(
         eom,
         "rhs",
@@ -106,6 +109,7 @@ def _rhs(eom: EquationsOfMotion) -> KernelFunction:
             *forces,
             *solved,
             *rates,
+            *charge_assignments(eom),
         ),
         [quantity.symbol for quantity in moving],
     )
@@ -129,24 +133,33 @@ def _slopes(stem: str, matrix: sp.MatrixBase, comment: str) -> tuple[tuple[Assig
 
 
 def _jacobian(eom: EquationsOfMotion) -> KernelFunction:
-    """Rows of the accelerations through the mass matrix by name; those of the dashpots as derived."""
+    """Rows of the accelerations through the mass matrix by name; those of dashpots and charge as derived."""
     n, size = eom.mass_matrix.rows, len(eom.state)
+    end = 2 * n + len(eom.internal_rates)
     forces, force_slopes = _slopes(
         "force_slope",
         eom.unbalanced_jacobian,
         "slope of (net force - mass matrix times acceleration), [J] per unit of the state",
     )
     dashpots, dashpot_slopes = _slopes(
-        "dashpot_slope", eom.jacobian[2 * n :, :], "slope of the dashpot rates, [1/s] per unit of the state"
+        "dashpot_slope",
+        eom.jacobian[2 * n : end, :],
+        "slope of the dashpot rates, [1/s] per unit of the state",
     )
-    rows = sp.Matrix.vstack(sp.Matrix(eom.jacobian[:n, :]), _solved(n, force_slopes), dashpot_slopes)
+    charge, charge_slopes = _slopes(
+        "charge_slope",
+        eom.jacobian[end:, :],
+        "slope of the rate of the charge density, [A/m^2] per unit of the state",
+    )
+    elementary = sp.Matrix(eom.jacobian[:n, :])
+    rows = sp.Matrix.vstack(elementary, _solved(n, force_slopes), dashpot_slopes, charge_slopes)
     return kernel_function(
         eom,
         "jacobian",
         "Derivative of `rhs` with respect to the state; entry [i, j] is d rhs_i / d state_j.",
         "per second, times the unit of state i over that of state j",
         (size, size),
-        (*_mass_assignments(eom), *_determinant_assignment(n), *forces, *dashpots),
+        (*_mass_assignments(eom), *_determinant_assignment(n), *forces, *dashpots, *charge),
         list(rows),
         accelerations=tuple(c.acceleration.name for c in eom.load_case.coordinates),
     )
@@ -224,96 +237,26 @@ def _mass(eom: EquationsOfMotion) -> KernelFunction:
     )
 
 
-def _dashpot_power(eom: EquationsOfMotion) -> KernelFunction:
-    """Stress times strain rate by name: what flows gives squares, which no rounding makes negative."""
-    stresses = tuple(sp.Symbol(f"deviatoric_stress_{axis}") for axis in (1, 2, 3))
-    rates = tuple(sp.Symbol(f"strain_rate_{axis}") for axis in (1, 2, 3))
-    assignments = (
-        *(
-            Assignment(name.name, value, "deviatoric stress on the dashpot [Pa]" if axis == 0 else "")
-            for axis, (name, value) in enumerate(zip(stresses, eom.dissipation.deviators, strict=True))
-        ),
-        *(
-            Assignment(name.name, value, "strain rate of the dashpot [1/s]" if axis == 0 else "")
-            for axis, (name, value) in enumerate(
-                zip(rates, eom.dissipation.strain_rates(stresses), strict=True)
-            )
-        ),
-    )
-    power = eom.membrane.volume * sp.Add(*(s * rate for s, rate in zip(stresses, rates, strict=True)))
-    return kernel_function(
-        eom, "dashpot_power", "Power that the dashpots dissipate.", "W", (), assignments, [power]
-    )
-
-
-def _potential(eom: EquationsOfMotion) -> KernelFunction:
-    parts = (
-        ("spring_alpha_energy", eom.energies.spring_alpha),
-        ("spring_beta_energy", eom.energies.spring_beta),
-        ("force_potential", eom.energies.forces),
-        ("electrostatic_energy", eom.energies.electrostatic),
-    )
-    total = sp.Add(*(sp.Symbol(name) for name, _ in parts), evaluate=True)
-    printed = eom.load_case.formulation == REACTION_IN_POTENTIAL
-    inserted = ", each with its share of the inserted reaction" if printed else ""
-    return kernel_function(
-        eom,
-        "potential_energy",
-        "Potential energy of springs, applied forces and field" + inserted + ".",
-        "J",
-        (),
-        tuple(Assignment(name, part) for name, part in parts),
-        [total],
-    )
-
-
-def reference_state(eom: EquationsOfMotion) -> tuple[sp.Expr, ...]:
-    """At rest in the reference configuration; a dashpot along a held axis has relaxed to the held stretch."""
-    load_case = eom.load_case
-    held = dict(zip(load_case.inelastic_stretches, load_case.stretches, strict=True))
-    coordinates = {c.value.symbol for c in load_case.coordinates}
-    relaxed = [
-        sp.Integer(1) if held[i.value.symbol] in coordinates else held[i.value.symbol]
-        for i in load_case.internals
-    ]
-    n = len(load_case.coordinates)
-    return tuple(named(value) for value in (*[sp.Integer(1)] * n, *[sp.Integer(0)] * n, *relaxed))
-
-
-def _formulas(eom: EquationsOfMotion) -> tuple[tuple[sp.Expr, sp.Expr], ...]:
-    """The governing equations in the notation of the paper, for the docstring."""
-    load_case = eom.load_case
-    inertia = eom.mass_matrix * sp.Matrix([c.acceleration.symbol for c in load_case.coordinates])
-    return (
-        (s.KINETIC_ENERGY.symbol, eom.kinetic_energy),
-        (s.POTENTIAL_ENERGY.symbol, eom.potential_energy),
-        *zip(inertia, eom.force_vector, strict=True),
-        *((i.rate.symbol, rate) for i, rate in zip(load_case.internals, eom.internal_rates, strict=True)),
-        *((r.symbol, force) for r, force in zip(load_case.reactions, eom.reaction_forces, strict=True)),
-    )
-
-
-def _digest(formulas: tuple[tuple[sp.Expr, sp.Expr], ...]) -> str:
-    """SHA-256 of the governing equations in canonical order, first 16 hexadecimal digits."""
-    text = "\n".join(
-        f"{sp.sstr(left, order='lex')} = {sp.sstr(right, order='lex')}" for left, right in formulas
-    )
-    return hashlib.sha256(text.encode()).hexdigest()[:16]
-
-
-def kernel(eom: EquationsOfMotion, verdicts: tuple[Verdict, ...]) -> KernelSpec:
+def kernel(
+    eom: EquationsOfMotion,
+    verdicts: tuple[Verdict, ...],
+    origin: Origin = PAPER,
+    defaults: Mapping[str, float] | None = None,
+) -> KernelSpec:
     """Describe the module of one model, with the verdicts on the printed equations it was checked against."""
     load_case, n = eom.load_case, eom.mass_matrix.rows
-    formulas = _formulas(eom)
+    formulas = governing_equations(eom)
     functions = (
         _rhs(eom),
         _jacobian(eom),
         _input_jacobian(eom),
         _mass(eom),
         _scalar(eom, "kinetic_energy", "Kinetic energy.", "J", eom.kinetic_energy),
-        _potential(eom),
+        potential(eom),
         _scalar(eom, "force_power", "Power that the applied forces put in.", "W", eom.force_power),
-        _dashpot_power(eom),
+        dashpot_power(eom),
+        *charge_powers(eom),
+        *(() if origin == PAPER else (electrodes(eom),)),
         *_reactions(eom),
         _edge_forces(eom),
         kernel_function(
@@ -321,6 +264,7 @@ def kernel(eom: EquationsOfMotion, verdicts: tuple[Verdict, ...]) -> KernelSpec:
             "principal_stretches", "Stretches along axes 1, 2 and through the thickness.", "1", (3,), (),
             eom.principal_stretches,
         ),
+        *validity(eom),
     )  # fmt: skip
     return KernelSpec(
         name=load_case.name,
@@ -337,5 +281,8 @@ def kernel(eom: EquationsOfMotion, verdicts: tuple[Verdict, ...]) -> KernelSpec:
         reference_state=reference_state(eom),
         formulas=formulas,
         verdicts=verdicts,
-        digest=_digest(formulas),
+        digest=digest(formulas),
+        quantities=eom.quantities,
+        origin=origin,
+        defaults=defaults,
     )

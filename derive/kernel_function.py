@@ -6,25 +6,19 @@ from collections.abc import Iterable
 
 import sympy as sp
 
-from delagrange.derive import symbols as s
 from delagrange.derive.euler_lagrange import EquationsOfMotion
 from delagrange.derive.kernel_spec import Assignment, KernelFunction
 from delagrange.derive.powers import share_powers
 from delagrange.derive.shared import share_subexpressions
+from delagrange.derive.symbols import QUANTITIES, Quantity
 
 _VOLUME = sp.Symbol("volume", positive=True)
 
 
-def named(expression: sp.Expr) -> sp.Expr:
+def named(expression: sp.Expr, quantities: tuple[Quantity, ...] = QUANTITIES) -> sp.Expr:
     """Replace the symbols of the algebra by the names that code uses."""
-    names = {
-        symbol: sp.Symbol(s.quantity_of(symbol).name) for symbol in expression.free_symbols if _known(symbol)
-    }
-    return expression.subs(names, simultaneous=True)
-
-
-def _known(symbol: sp.Symbol) -> bool:
-    return any(quantity.symbol == symbol for quantity in s.QUANTITIES)
+    names = {quantity.symbol: sp.Symbol(quantity.name) for quantity in quantities}
+    return expression.xreplace(names)
 
 
 def _in_volume(expression: sp.Expr, volume: sp.Expr) -> sp.Expr:
@@ -42,9 +36,10 @@ def _pairs(pairs: tuple[tuple[str, sp.Expr], ...], comment: str) -> tuple[Assign
     )
 
 
-def _volume_assignment(expressions: Iterable[sp.Expr], volume: sp.Expr) -> tuple[Assignment, ...]:
+def _volume_assignment(expressions: Iterable[sp.Expr], eom: EquationsOfMotion) -> tuple[Assignment, ...]:
     used = any(_VOLUME in expression.free_symbols for expression in expressions)
-    return (Assignment("volume", named(volume), "volume of the membrane [m^3]", True),) if used else ()
+    volume = named(eom.membrane.volume, eom.quantities)
+    return (Assignment("volume", volume, "volume of the membrane [m^3]", True),) if used else ()
 
 
 def kernel_function(
@@ -61,7 +56,7 @@ def kernel_function(
     """Name symbols, the volume, and the powers of moving quantities, in the order of their use."""
     assignments = tuple(assignments)
     raw = (*(a.expression for a in assignments), *(sp.sympify(output) for output in outputs))
-    in_code = tuple(named(_in_volume(expression, eom.membrane.volume)) for expression in raw)
+    in_code = tuple(named(_in_volume(expression, eom.membrane.volume), eom.quantities) for expression in raw)
     powers, in_powers = share_powers(in_code, frozenset(quantity.name for quantity in eom.state))
     constants = frozenset((_VOLUME.name, *(parameter.name for parameter in eom.parameters)))
     common, expressions = share_subexpressions(in_powers, constants, frozenset(a.name for a in assignments))
@@ -72,6 +67,6 @@ def kernel_function(
     )
     return KernelFunction(
         name, summary, unit, shape,
-        (*_volume_assignment(in_powers, eom.membrane.volume), *shared, *rewritten),
+        (*_volume_assignment(in_powers, eom), *shared, *rewritten),
         expressions[len(assignments):], accelerations,
     )  # fmt: skip

@@ -6,11 +6,12 @@ intermediate values. `kernel` fills it; `emit` places it.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import sympy as sp
 
-from delagrange.derive.symbols import Quantity
+from delagrange.derive.symbols import QUANTITIES, Quantity
 from delagrange.derive.verdict import Verdict
 
 
@@ -42,6 +43,24 @@ class KernelFunction:
 
 
 @dataclass(frozen=True)
+class Origin:
+    """What a module says of where it comes from."""
+
+    command: str  # that makes it again
+    body: str  # the membrane in a sentence
+    notation: str  # of the governing equations, "" where they speak for themselves
+    sources: tuple[str, ...] = ()  # of energies and values
+    start: str = ""  # what `reference_state` is, where it is not the plain one
+
+
+PAPER = Origin(
+    "make derive",
+    "A square membrane of sides 2 L and thickness 2 H in the reference state",
+    ", in the notation of Sheng et al. (2015), J. Appl. Phys., doi:10.1063/1.4913384",
+)
+
+
+@dataclass(frozen=True)
 class KernelSpec:
     """A model module, whatever language it is written in."""
 
@@ -60,3 +79,6 @@ class KernelSpec:
     formulas: tuple[tuple[sp.Expr, sp.Expr], ...]  # governing equations, left = right, in the paper's symbols
     verdicts: tuple[Verdict, ...]
     digest: str
+    quantities: tuple[Quantity, ...] = QUANTITIES  # all that the formulas are written in
+    origin: Origin = PAPER
+    defaults: Mapping[str, float] | None = None  # values of parameters by name; None: the module has none

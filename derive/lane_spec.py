@@ -17,6 +17,7 @@ class LaneSpec:
     constants: tuple[Assignment, ...]  # what does not move, in terms of volume and parameters
     rates: KernelFunction  # rate of change of the state, in terms of state, inputs and constants
     principal_stretches: KernelFunction
+    validity: KernelFunction | None  # what is left to the limits of the energies [1]; None: they have none
     operations: int  # of one evaluation of `rates`, per trajectory
 
 
@@ -26,6 +27,7 @@ def lane_spec(spec: KernelSpec) -> LaneSpec:
     constants = constants_for(spec)
     rates = arranged(functions["rhs"], spec, constants)
     principal = arranged(functions["principal_stretches"], spec, constants)
-    return LaneSpec(
-        spec, volume_of(functions["rhs"]), constants.assignments(), rates, principal, operations_of(rates)
-    )
+    limit = functions.get("validity")
+    validity = None if limit is None else arranged(limit, spec, constants)
+    volume = volume_of(functions["rhs"])
+    return LaneSpec(spec, volume, constants.assignments(), rates, principal, validity, operations_of(rates))

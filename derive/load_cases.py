@@ -29,12 +29,13 @@ class LoadCase:
     internals: tuple[TimeDependent, ...]  # inelastic stretches that flow
     inputs: tuple[Quantity, ...]
     stretches: tuple[sp.Expr, sp.Expr]  # lambda_1, lambda_2 in the coordinates
-    inelastic_stretches: tuple[sp.Expr, sp.Expr]  # xi_1, xi_2 in the internals
-    forces: tuple[sp.Expr, sp.Expr]  # P_1, P_2: an input, zero, or a reaction
+    inelastic_stretches: tuple[sp.Expr, ...]  # xi_1, xi_2 of each branch in the internals
+    forces: tuple[sp.Expr, sp.Expr]  # P_1, P_2: an input or zero, and a reaction where the axis is held
     reactions: tuple[Quantity, ...] = ()
     parameters: tuple[Quantity, ...] = ()  # beyond those of the membrane
     formulation: str = CONSTRAINED_VARIATION
     remark: str = ""  # what a user of the emitted module must know
+    start: tuple[sp.Expr, ...] | None = None  # of the coordinates, in the reference state; None: all 1
 
 
 EQUAL_BIAXIAL = LoadCase(

@@ -12,18 +12,13 @@ from delagrange.derive.derived_equations import (
     check_model_dimensions,
     derived_equations,
 )
-from delagrange.derive.emit import emit
-from delagrange.derive.emit_lanes import emit_lanes
-from delagrange.derive.emit_variational import emit_variational
 from delagrange.derive.euler_lagrange import EquationsOfMotion, equations_of_motion
 from delagrange.derive.kernel import kernel
-from delagrange.derive.kernel_spec import KernelSpec
-from delagrange.derive.lane_spec import lane_spec
 from delagrange.derive.load_cases import BIAXIAL, EMITTED, LoadCase
 from delagrange.derive.membrane import Membrane, membrane
 from delagrange.derive.published.sheng_2015 import SHENG_2015
 from delagrange.derive.strain_energy import neo_hookean
-from delagrange.derive.variational_spec import variational_spec
+from delagrange.derive.user_model import emitted
 from delagrange.derive.verdict import Verdict
 from delagrange.derive.verify import verify
 
@@ -72,15 +67,6 @@ def walk() -> Walked:
     )
     modules = tuple(module for spec in described for module in emitted(spec))
     return Walked(models, tuple(chain.from_iterable(verdicts)), modules)
-
-
-def emitted(spec: KernelSpec) -> tuple[tuple[str, str], ...]:
-    """File name and text of what is emitted for a model: its NumPy module and its two compiled kernels."""
-    return (
-        (f"{spec.name}.py", emit(spec)),
-        (f"{spec.name}_lanes.py", emit_lanes(lane_spec(spec))),
-        (f"{spec.name}_variational.py", emit_variational(variational_spec(spec))),
-    )
 
 
 def check() -> tuple[Verdict, ...]:

@@ -11,23 +11,26 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from delagrange.derive.symbols import quantity_of
+from delagrange.derive.symbols import QUANTITIES, Quantity
 
 _SUM, _PRODUCT, _POWER, _ATOM = range(4)  # binding strength
 
 
 @dataclass(frozen=True)
 class ExpressionPrinter:
-    """Prints sums, products, integer powers and named functions.
+    """Prints sums, products, powers and named functions.
 
     `name_of` names a symbol; `functions` maps SymPy function classes to what they are called; `times`
-    stands between factors; `power` writes a base raised to a positive integer.
+    stands between factors; `power` writes a base raised to a positive integer, `raised` stands between the
+    base and the exponent of any other power, and `root` names the square root.
     """
 
     name_of: Callable[[sp.Symbol], str]
     functions: Mapping[type, str]
     times: str = " * "
     power: Callable[[str, int], str] = "{}**{}".format
+    raised: str = "**"
+    root: str = "np.sqrt"
 
     def __call__(self, expression: sp.Expr) -> str:
         return self._visit(expression)[0]
@@ -85,14 +88,27 @@ class ExpressionPrinter:
         if exponent.is_number and exponent.is_negative:
             return f"1 / {self._wrapped(base**-exponent, _POWER)}", _PRODUCT
         if not exponent.is_Integer:
-            raise TypeError(f"no way to print the power {expression}: its exponent is not an integer")
+            return self._general_power(base, exponent)
         return self.power(self._wrapped(base, _ATOM), int(exponent)), _POWER
 
+    def _general_power(self, base: sp.Expr, exponent: sp.Expr) -> tuple[str, int]:
+        if exponent == sp.Rational(1, 2):
+            return f"{self.root}({self(base)})", _ATOM
+        return f"{self._wrapped(base, _ATOM)}{self.raised}{self._wrapped(exponent, _ATOM)}", _POWER
+
     def _function(self, expression: sp.Expr) -> str:
+        if isinstance(expression, sp.Min):
+            return self._least(sorted(expression.args, key=sp.default_sort_key))
+        if expression is sp.E:
+            return f"{self.functions[sp.exp]}(1)"
         for function, name in self.functions.items():
             if isinstance(expression, function):
                 return f"{name}({', '.join(self(argument) for argument in expression.args)})"
         raise TypeError(f"no way to print {type(expression).__name__}: {expression}")
+
+    def _least(self, arguments: list[sp.Expr]) -> str:
+        first, *others = arguments
+        return f"np.minimum({self(first)}, {self._least(others)})" if others else self(first)
 
 
 def _fraction(expression: sp.Mul) -> tuple[list[sp.Expr], list[sp.Expr]]:
@@ -111,6 +127,13 @@ def _fraction(expression: sp.Mul) -> tuple[list[sp.Expr], list[sp.Expr]]:
     return above, below
 
 
+_NAMED = {function: function.__name__ for function in (sp.sin, sp.cos, sp.tan, sp.sinh, sp.cosh, sp.tanh)}
+
+# What NumPy and compiled code call the functions
+NUMPY_FUNCTIONS: Mapping[type, str] = {sp.log: "np.log", sp.exp: "np.exp"} | {
+    function: f"np.{name}" for function, name in _NAMED.items()
+}
+
 _SUPERSCRIPTS = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
@@ -118,7 +141,17 @@ def _raised(base: str, exponent: int) -> str:
     return base + str(exponent).translate(_SUPERSCRIPTS)
 
 
-# Formulas for people, in the notation of the paper: 8 H L² μ^α / 3
-PAPER_TEXT = ExpressionPrinter(
-    lambda symbol: quantity_of(symbol).text, {sp.log: "ln", sp.exp: "exp"}, times=" ", power=_raised
-)
+def text_printer(quantities: tuple[Quantity, ...]) -> ExpressionPrinter:
+    """Formulas for people, in the notation of the quantities: 8 H L² μ^α / 3."""
+    notation = {quantity.symbol: quantity.text for quantity in quantities}
+    return ExpressionPrinter(
+        notation.__getitem__,
+        {sp.log: "ln", sp.exp: "exp"} | _NAMED,
+        times=" ",
+        power=_raised,
+        raised="^",
+        root="√",
+    )
+
+
+PAPER_TEXT = text_printer(QUANTITIES)

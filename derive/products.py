@@ -27,24 +27,35 @@ def share_products(
         order given.
     """
     bags = [_bag(product) for expression in expressions for product in _products(expression)]
+    found: Counter[Pair] = Counter()
+    for bag in bags:
+        found.update(_pairs(bag))
     named: dict[sp.Symbol, Pair] = {}
-    while (pair := _most_frequent(bags)) is not None:
+    while (pair := _most_frequent(found)) is not None:
         name = _name(pair, named)
         named[name] = pair
-        for bag in bags:
+        for bag in (bag for bag in bags if pair[0] in bag and pair[1] in bag):
+            found.subtract(_pairs(bag))
             _replace(bag, pair, name)
+            found.update(_pairs(bag))
     rest = iter(bags)
     rewritten = tuple(_rewritten(expression, rest) for expression in expressions)
     return tuple((name.name, sp.Mul(*pair, evaluate=False)) for name, pair in named.items()), rewritten
 
 
-def _most_frequent(bags: list[Bag]) -> Pair | None:
+def _pairs(bag: Bag) -> dict[Pair, int]:
+    """How often each pair of factors stands together in a product."""
+    factors = sorted(bag, key=_by_name)
+    pairs = {(one, other): min(bag[one], bag[other]) for one, other in combinations(factors, 2)}
+    return pairs | {(one, one): bag[one] // 2 for one in factors}
+
+
+def _by_name(symbol: sp.Symbol) -> str:
+    return symbol.name
+
+
+def _most_frequent(found: Counter[Pair]) -> Pair | None:
     """The pair that stands together most often, at least twice; squares first, then by name."""
-    found: Counter[Pair] = Counter()
-    for bag in bags:
-        factors = sorted(bag, key=str)
-        found.update({(one, other): min(bag[one], bag[other]) for one, other in combinations(factors, 2)})
-        found.update({(one, one): bag[one] // 2 for one in factors})
     often = max(found.values(), default=0)
     candidates = (pair for pair, count in found.items() if count == often)
     return min(candidates, key=lambda pair: (pair[0] != pair[1], *map(str, pair))) if often > 1 else None

@@ -7,21 +7,47 @@ operations on something that varies keep a name.
 
 from __future__ import annotations
 
+from collections import Counter
+from collections.abc import Iterable
+
 import sympy as sp
 
 _WORTH = 2  # operations saved, where a person reads the code
 
 
-def _uses(symbol: sp.Symbol, expressions: list[sp.Expr]) -> int:
-    """How often a symbol stands in the expressions."""
-    return sum(int(expression.count(symbol)) for expression in expressions)
+def _counts(expression: sp.Expr) -> Counter[sp.Symbol]:
+    """How often each symbol stands in an expression."""
+    return Counter(part for part in sp.preorder_traversal(expression) if part.is_Symbol)
 
 
-def _unfolded(value: sp.Expr, found: list[tuple[sp.Symbol, sp.Expr]]) -> sp.Expr:
-    """The value with every other common subexpression written out."""
-    for symbol, expression in reversed(found):
-        value = value.subs(symbol, expression)
-    return value
+class _Counted:
+    """Expressions with what stands in them, counted anew only where one changes."""
+
+    def __init__(self, expressions: Iterable[sp.Expr]) -> None:
+        self.expressions = list(expressions)
+        self._counts = [_counts(expression) for expression in self.expressions]
+
+    def append(self, expression: sp.Expr) -> None:
+        self.expressions.append(expression)
+        self._counts.append(_counts(expression))
+
+    def uses(self, symbol: sp.Symbol) -> int:
+        return sum(counts[symbol] for counts in self._counts)
+
+    def write_out(self, symbol: sp.Symbol, value: sp.Expr) -> None:
+        """Put the value in the place of the symbol."""
+        for place, counts in enumerate(self._counts):
+            if symbol in counts:
+                self.expressions[place] = self.expressions[place].xreplace({symbol: value})
+                self._counts[place] = _counts(self.expressions[place])
+
+
+def _leaves(found: list[tuple[sp.Symbol, sp.Expr]]) -> dict[sp.Symbol, frozenset[str]]:
+    """Names that each common subexpression is made of, every other one written out."""
+    leaves: dict[sp.Symbol, frozenset[str]] = {}
+    for symbol, value in found:
+        leaves[symbol] = frozenset().union(*(leaves.get(f, {f.name}) for f in value.free_symbols))
+    return leaves
 
 
 def share_subexpressions(
@@ -41,25 +67,37 @@ def share_subexpressions(
         expressions in the order given.
     """
     found, rewritten = sp.cse(expressions, symbols=sp.numbered_symbols("_cse"), order="canonical")
-    kept: list[tuple[sp.Symbol, sp.Expr]] = []
-    rest = list(rewritten)
+    leaves = _leaves(found)
+    first_use = _first_uses(found)
+    names_kept: list[sp.Symbol] = []
+    kept, rest = _Counted(()), _Counted(rewritten)
     for number, (symbol, value) in reversed(list(enumerate(found))):
-        earlier = [expression for _, expression in found[:number]]
-        users = [expression for _, expression in kept] + rest
-        saved = value.count_ops() * (_uses(symbol, users) - 1)
-        names = {free.name for free in _unfolded(value, found).free_symbols}
+        saved = value.count_ops() * (kept.uses(symbol) + rest.uses(symbol) - 1)
+        names = leaves[symbol]
         if (
             names - constants
             and not names & later
             and saved >= worth
-            and _uses(symbol, earlier) == 0
+            and first_use.get(symbol, number) >= number
             and (not sums_only or value.has(sp.Add))
         ):
-            kept.append((symbol, value))
+            names_kept.append(symbol)
+            kept.append(value)
             continue
-        kept = [(name, expression.subs(symbol, value)) for name, expression in kept]
-        rest = [expression.subs(symbol, value) for expression in rest]
-    kept.reverse()
-    names = {symbol: sp.Symbol(f"shared_{number}") for number, (symbol, _) in enumerate(kept, start=1)}
-    pairs = tuple((names[symbol].name, value.xreplace(names)) for symbol, value in kept)
-    return pairs, tuple(expression.xreplace(names) for expression in rest)
+        kept.write_out(symbol, value)
+        rest.write_out(symbol, value)
+    ordered = list(zip(reversed(names_kept), reversed(kept.expressions), strict=True))
+    names = {
+        symbol: sp.Symbol(f"shared_{number}") for number, symbol in enumerate(reversed(names_kept), start=1)
+    }
+    pairs = tuple((names[symbol].name, value.xreplace(names)) for symbol, value in ordered)
+    return pairs, tuple(expression.xreplace(names) for expression in rest.expressions)
+
+
+def _first_uses(found: list[tuple[sp.Symbol, sp.Expr]]) -> dict[sp.Symbol, int]:
+    """The first of the common subexpressions that each symbol stands in."""
+    first: dict[sp.Symbol, int] = {}
+    for number, (_, value) in enumerate(found):
+        for symbol in value.free_symbols:
+            first.setdefault(symbol, number)
+    return first

@@ -33,17 +33,18 @@ class TimeDependent:
     acceleration: Quantity
 
 
-def _quantity(
+def quantity(
     key: str, name: str, text: str, latex: str, unit: str, meaning: str, *, positive: bool = True
 ) -> Quantity:
+    """A quantity with a symbol of its own, called `key` in the algebra."""
     assumptions = {"positive": True} if positive else {"real": True}
     return Quantity(sp.Symbol(key, **assumptions), name, text, latex, unit, meaning)
 
 
 def _rate_name(name: str, suffix: str) -> str:
-    """`stretch_1` -> `stretch_rate_1`: the index of the axis stays last."""
-    stem, _, index = name.rpartition("_")
-    return f"{stem}_{suffix}_{index}" if index.isdigit() else f"{name}_{suffix}"
+    """`stretch_1` -> `stretch_rate_1`: the indices of branch and axis stay last."""
+    stem = name.rstrip("_0123456789")
+    return f"{stem}_{suffix}{name[len(stem) :]}"
 
 
 def _dotted(text: str, mark: str) -> str:
@@ -51,13 +52,13 @@ def _dotted(text: str, mark: str) -> str:
     return text[0] + mark + text[1:]
 
 
-def _moving(key: str, name: str, text: str, latex: str, meaning: str) -> TimeDependent:
+def moving(key: str, name: str, text: str, latex: str, meaning: str) -> TimeDependent:
     """A stretch-like quantity [1] with its rates [1/s], [1/s^2]."""
     head, _, subscript = latex.partition("_")
     tail = f"_{subscript}" if subscript else ""
     return TimeDependent(
-        _quantity(key, name, text, latex, "1", meaning),
-        _quantity(
+        quantity(key, name, text, latex, "1", meaning),
+        quantity(
             f"{key}_dot",
             _rate_name(name, "rate"),
             _dotted(text, "\u0307"),
@@ -66,7 +67,7 @@ def _moving(key: str, name: str, text: str, latex: str, meaning: str) -> TimeDep
             f"rate of change of the {meaning}",
             positive=False,
         ),
-        _quantity(
+        quantity(
             f"{key}_ddot",
             _rate_name(name, "acceleration"),
             _dotted(text, "\u0308"),
@@ -79,25 +80,25 @@ def _moving(key: str, name: str, text: str, latex: str, meaning: str) -> TimeDep
 
 
 # Time and place
-TIME = _quantity("t", "time", "t", "t", "s", "time", positive=False)
-MATERIAL_X = _quantity(
+TIME = quantity("t", "time", "t", "t", "s", "time", positive=False)
+MATERIAL_X = quantity(
     "X", "material_x", "X", "X", "m", "material coordinate in the plane, axis 1", positive=False
 )
-MATERIAL_Y = _quantity(
+MATERIAL_Y = quantity(
     "Y", "material_y", "Y", "Y", "m", "material coordinate in the plane, axis 2", positive=False
 )
-MATERIAL_Z = _quantity(
+MATERIAL_Z = quantity(
     "Z", "material_z", "Z", "Z", "m", "material coordinate through the thickness", positive=False
 )
 
 # The membrane
-HALF_LENGTH = _quantity(
+HALF_LENGTH = quantity(
     "L", "half_length", "L", "L", "m", "half the side of the square membrane in the reference state"
 )
-HALF_THICKNESS = _quantity("H", "half_thickness", "H", "H", "m", "half the thickness in the reference state")
-DENSITY = _quantity("rho", "density", "ρ", r"\rho", "kg/m^3", "mass density")
-PERMITTIVITY = _quantity("epsilon", "permittivity", "ε", r"\varepsilon", "F/m", "permittivity")
-SHEAR_MODULUS_ALPHA = _quantity(
+HALF_THICKNESS = quantity("H", "half_thickness", "H", "H", "m", "half the thickness in the reference state")
+DENSITY = quantity("rho", "density", "ρ", r"\rho", "kg/m^3", "mass density")
+PERMITTIVITY = quantity("epsilon", "permittivity", "ε", r"\varepsilon", "F/m", "permittivity")
+SHEAR_MODULUS_ALPHA = quantity(
     "mu_alpha",
     "shear_modulus_alpha",
     "μ^α",
@@ -105,7 +106,7 @@ SHEAR_MODULUS_ALPHA = _quantity(
     "Pa",
     "shear modulus of spring α, the equilibrium spring",
 )
-SHEAR_MODULUS_BETA = _quantity(
+SHEAR_MODULUS_BETA = quantity(
     "mu_beta",
     "shear_modulus_beta",
     "μ^β",
@@ -113,16 +114,16 @@ SHEAR_MODULUS_BETA = _quantity(
     "Pa",
     "shear modulus of spring β, in series with the dashpot",
 )
-VISCOSITY = _quantity("eta", "viscosity", "η", r"\eta", "Pa s", "viscosity of the dashpot, τ_v μ^β")
+VISCOSITY = quantity("eta", "viscosity", "η", r"\eta", "Pa s", "viscosity of the dashpot, τ_v μ^β")
 
 # Further constants of the strain energies
-SECOND_MODULUS_ALPHA = _quantity(
+SECOND_MODULUS_ALPHA = quantity(
     "mu_2_alpha", "second_modulus_alpha", "μ_2^α", r"\mu_{2}^{\alpha}", "Pa", "second modulus of spring α"
 )
-SECOND_MODULUS_BETA = _quantity(
+SECOND_MODULUS_BETA = quantity(
     "mu_2_beta", "second_modulus_beta", "μ_2^β", r"\mu_{2}^{\beta}", "Pa", "second modulus of spring β"
 )
-LOCKING_ALPHA = _quantity(
+LOCKING_ALPHA = quantity(
     "J_alpha",
     "locking_alpha",
     "J^α",
@@ -130,7 +131,7 @@ LOCKING_ALPHA = _quantity(
     "1",
     "locking limit of spring α, of its first invariant less 3",
 )
-LOCKING_BETA = _quantity(
+LOCKING_BETA = quantity(
     "J_beta",
     "locking_beta",
     "J^β",
@@ -140,14 +141,10 @@ LOCKING_BETA = _quantity(
 )
 
 # What drives it
-FORCE_1 = _quantity(
-    "P_1", "force_1", "P_1", "P_1", "N", "force on each edge normal to axis 1", positive=False
-)
-FORCE_2 = _quantity(
-    "P_2", "force_2", "P_2", "P_2", "N", "force on each edge normal to axis 2", positive=False
-)
-FORCE = _quantity("P", "force", "P", "P", "N", "force on each loaded edge", positive=False)
-FIELD = _quantity(
+FORCE_1 = quantity("P_1", "force_1", "P_1", "P_1", "N", "force on each edge normal to axis 1", positive=False)
+FORCE_2 = quantity("P_2", "force_2", "P_2", "P_2", "N", "force on each edge normal to axis 2", positive=False)
+FORCE = quantity("P", "force", "P", "P", "N", "force on each loaded edge", positive=False)
+FIELD = quantity(
     "E",
     "nominal_electric_field",
     "E",
@@ -156,7 +153,7 @@ FIELD = _quantity(
     "nominal electric field, voltage over reference thickness",
     positive=False,
 )
-REACTION_2 = _quantity(
+REACTION_2 = quantity(
     "P_2p",
     "reaction_force_2",
     "P_2p",
@@ -167,27 +164,27 @@ REACTION_2 = _quantity(
 )
 
 # The full membrane: two in-plane stretches, two inelastic stretches of the dashpot
-STRETCH_1 = _moving("lambda_1", "stretch_1", "λ_1", r"\lambda_1", "stretch along axis 1")
-STRETCH_2 = _moving("lambda_2", "stretch_2", "λ_2", r"\lambda_2", "stretch along axis 2")
-INELASTIC_STRETCH_1 = _moving(
+STRETCH_1 = moving("lambda_1", "stretch_1", "λ_1", r"\lambda_1", "stretch along axis 1")
+STRETCH_2 = moving("lambda_2", "stretch_2", "λ_2", r"\lambda_2", "stretch along axis 2")
+INELASTIC_STRETCH_1 = moving(
     "xi_1", "inelastic_stretch_1", "ξ_1", r"\xi_1", "inelastic stretch of the dashpot along axis 1"
 )
-INELASTIC_STRETCH_2 = _moving(
+INELASTIC_STRETCH_2 = moving(
     "xi_2", "inelastic_stretch_2", "ξ_2", r"\xi_2", "inelastic stretch of the dashpot along axis 2"
 )
 
 # The coordinates of each load case
-STRETCH_EB = _moving("lambda_EB", "stretch", "λ_EB", r"\lambda_{EB}", "in-plane stretch")
-INELASTIC_STRETCH_EB = _moving(
+STRETCH_EB = moving("lambda_EB", "stretch", "λ_EB", r"\lambda_{EB}", "in-plane stretch")
+INELASTIC_STRETCH_EB = moving(
     "xi_EB", "inelastic_stretch", "ξ_EB", r"\xi_{EB}", "inelastic stretch of the dashpot"
 )
 
-STRETCH_UA1 = _moving("lambda_UA1", "stretch_1", "λ_UA1", r"\lambda_{UA1}", "stretch along the force")
-STRETCH_UA2 = _moving("lambda_UA2", "stretch_2", "λ_UA2", r"\lambda_{UA2}", "stretch across the force")
-INELASTIC_STRETCH_UA1 = _moving(
+STRETCH_UA1 = moving("lambda_UA1", "stretch_1", "λ_UA1", r"\lambda_{UA1}", "stretch along the force")
+STRETCH_UA2 = moving("lambda_UA2", "stretch_2", "λ_UA2", r"\lambda_{UA2}", "stretch across the force")
+INELASTIC_STRETCH_UA1 = moving(
     "xi_UA1", "inelastic_stretch_1", "ξ_UA1", r"\xi_{UA1}", "inelastic stretch of the dashpot along the force"
 )
-INELASTIC_STRETCH_UA2 = _moving(
+INELASTIC_STRETCH_UA2 = moving(
     "xi_UA2",
     "inelastic_stretch_2",
     "ξ_UA2",
@@ -195,26 +192,26 @@ INELASTIC_STRETCH_UA2 = _moving(
     "inelastic stretch of the dashpot across the force",
 )
 
-STRETCH_PS = _moving("lambda_PS", "stretch", "λ_PS", r"\lambda_{PS}", "stretch along the force")
-INELASTIC_STRETCH_PS = _moving(
+STRETCH_PS = moving("lambda_PS", "stretch", "λ_PS", r"\lambda_{PS}", "stretch along the force")
+INELASTIC_STRETCH_PS = moving(
     "xi_PS", "inelastic_stretch", "ξ_PS", r"\xi_{PS}", "inelastic stretch of the dashpot along the force"
 )
-INELASTIC_STRETCH_PS2 = _moving(
+INELASTIC_STRETCH_PS2 = moving(
     "xi_PS2",
     "inelastic_stretch_2",
     "ξ_PS2",
     r"\xi_{PS2}",
     "inelastic stretch of the dashpot along the held axis",
 )
-HELD_STRETCH = _quantity(
+HELD_STRETCH = quantity(
     "lambda_2p", "held_stretch", "λ_2p", r"\lambda_{2p}", "1", "stretch at which axis 2 is held"
 )
 
 # What equations are equal to
-KINETIC_ENERGY = _quantity(
+KINETIC_ENERGY = quantity(
     "T", "kinetic_energy", "T", "T", "J", "kinetic energy of the membrane", positive=False
 )
-POTENTIAL_ENERGY = _quantity(
+POTENTIAL_ENERGY = quantity(
     "Pi", "potential_energy", "Π", r"\Pi", "J", "potential of springs, forces and field", positive=False
 )
 
@@ -232,7 +229,7 @@ _MOVING = (
 )  # fmt: skip
 
 QUANTITIES: tuple[Quantity, ...] = _CONSTANTS_AND_INPUTS + tuple(
-    quantity for moving in _MOVING for quantity in (moving.value, moving.rate, moving.acceleration)
+    part for each in _MOVING for part in (each.value, each.rate, each.acceleration)
 )
 
 
@@ -242,7 +239,7 @@ def quantity_of(symbol: sp.Symbol) -> Quantity:
     Raises:
         KeyError: the symbol is not in the table.
     """
-    for quantity in QUANTITIES:
-        if quantity.symbol == symbol:
-            return quantity
+    for known in QUANTITIES:
+        if known.symbol == symbol:
+            return known
     raise KeyError(f"symbol {symbol} is not in the symbol table")

@@ -24,6 +24,9 @@ class VariationalSpec:
     constants: tuple[Assignment, ...]  # what does not move, in terms of volume and parameters
     motion: KernelFunction  # rates, then the Jacobian by the state, then that by the inputs, row by row
     principal_stretches: KernelFunction
+    validity: (
+        KernelFunction | None
+    )  # what is left to the limits of the energies [1]; None where there are none
     operations: int  # of one evaluation of `motion`, beside the tangent
 
     @property
@@ -51,8 +54,12 @@ def variational_spec(spec: KernelSpec) -> VariationalSpec:
     parts = [functions[name] for name in ("rhs", "jacobian", "input_jacobian")]
     motion = arranged(joined("motion", parts), spec, constants)
     principal = arranged(functions["principal_stretches"], spec, constants)
+    limit = functions.get("validity")
+    validity = None if limit is None else arranged(limit, spec, constants)
     volume = volume_of(functions["rhs"])
-    return VariationalSpec(spec, volume, constants.assignments(), motion, principal, operations_of(motion))
+    return VariationalSpec(
+        spec, volume, constants.assignments(), motion, principal, validity, operations_of(motion)
+    )
 
 
 def joined(name: str, functions: list[KernelFunction]) -> KernelFunction:

@@ -995,6 +995,7 @@ def _first_step(work, k, rtol, atol, duration):
         if work[DRIVE + (AMPLITUDE + i) * LANES + k] != 0.0:
             fastest = max(fastest, work[DRIVE + (FREQUENCY + i) * LANES + k])
     step = 0.01 * np.sqrt(size / speed) if speed > 1e-12 * size else 1e-3 * duration
+    step = max(step, 1e-12 * duration)  # of a state of nothing but zeros as well
     return min(step, 0.05 / fastest) if fastest > 0.0 else step
 
 

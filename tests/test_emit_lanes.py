@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import ast
+import importlib.util
 import math
 import os
 import subprocess
 import sys
+from dataclasses import replace
+from functools import cache
 from importlib import import_module, resources
 from pathlib import Path
 
@@ -19,15 +22,21 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from delagrange import loss
+from delagrange.derive.arranged import operations_of
+from delagrange.derive.emit import emit
+from delagrange.derive.emit_lanes import emit_lanes
 from delagrange.derive.kernel import kernel
 from delagrange.derive.lane_constants import Constants
 from delagrange.derive.lane_spec import lane_spec
 from delagrange.derive.load_cases import EMITTED
+from delagrange.derive.model_description import describe
+from delagrange.derive.model_file import read_model_file
 from delagrange.derive.operations import operations
 from delagrange.derive.powers import share_powers
 from delagrange.derive.reciprocals import denominators, inverse_name, share_division, without_division
 from delagrange.derive.runge_kutta import dop853, quadrature
 from delagrange.derive.sine import sine_coefficients
+from delagrange.derive.user_model import description_spec
 from delagrange.kernels import integrate_nothing
 
 NAMES = tuple(case.name for case in EMITTED)
@@ -437,3 +446,109 @@ def test_every_row_has_its_own_place():
 def test_nothing_to_integrate_is_no_error():
     for name in NAMES:
         integrate_nothing(kernel_of(name))
+
+
+# --- limits of the strain energies -------------------------------------------------------------------
+
+GENT = Path(__file__).parent / "models" / "gent_two_branches.toml"
+
+
+@cache
+def gent_spec():
+    """A membrane with two Gent springs."""
+    return description_spec(describe(read_model_file(GENT)))
+
+
+@cache
+def gent_lanes(limits=True):
+    """Its kernel, or that of the same membrane where nobody says how far a spring can be stretched."""
+    kept = tuple(function for function in gent_spec().functions if limits or function.name != "validity")
+    return lane_spec(replace(gent_spec(), functions=kept))
+
+
+@pytest.fixture(scope="module")
+def gent(tmp_path_factory):
+    """Module and kernel of it, imported and not compiled."""
+    folder = tmp_path_factory.mktemp("gent")
+    texts = {"gent": emit(gent_spec()), "gent_lanes": emit_lanes(gent_lanes())}
+    return tuple(imported(folder / f"{name}.py", text) for name, text in texts.items())
+
+
+def imported(path, text):
+    path.write_text(text, encoding="utf-8")
+    described = importlib.util.spec_from_file_location(path.stem, path)
+    module = importlib.util.module_from_spec(described)
+    described.loader.exec_module(module)
+    return module
+
+
+def functions_in(text):
+    """Text of every function by name."""
+    return {
+        each.name: ast.unparse(each) for each in ast.parse(text).body if isinstance(each, ast.FunctionDef)
+    }
+
+
+def test_a_lane_is_measured_against_the_limits_of_the_module(gent, rng):
+    model, lanes = gent
+    work, state, inputs, parameters = np.full(lanes.SIZE, np.nan), *gent_states(model, lanes.LANES, rng)
+    for start, rows in ((lanes.POINT, state), (lanes.CONSTANT, lanes.constants(parameters))):
+        work[start : start + len(rows) * lanes.LANES] = np.ravel(rows)
+    expected = model.validity(state, inputs, parameters)
+    assert expected.min() < 0 < expected.max()
+    for k in range(lanes.LANES):
+        assert lanes._validity.py_func(work, k) == pytest.approx(expected[k], rel=1e-13, abs=1e-11)
+
+
+def gent_states(model, lanes, rng):
+    """States within the limits and beyond either of them, with inputs and parameters of each lane."""
+    reference = np.asarray(model.reference_state(tuple(model.DEFAULTS.values())), dtype=float)
+    state = reference[:, None] * rng.uniform(0.4, 9.0, (len(reference), lanes))
+    inputs = rng.uniform(0.0, 1.0, (len(model.INPUTS), lanes))
+    return state, inputs, [value * rng.uniform(0.5, 2.0, lanes) for value in model.DEFAULTS.values()]
+
+
+def test_limits_are_looked_at_once_a_step_and_not_in_its_stages():
+    """All that evaluates, integrates and interpolates is, to the letter, what it would be without them."""
+    bound, free = gent_lanes(), gent_lanes(limits=False)
+    assert bound.operations == free.operations and bound.rates == free.rates
+    assert bound.constants[: len(free.constants)] == free.constants
+    with_limits, without = functions_in(emit_lanes(bound)), functions_in(emit_lanes(free))
+    changed = {name for name, text in with_limits.items() if text != without.get(name)}
+    assert changed == {
+        "_validity", "constants", "_marks", "_note_ends", "_kept", "_kind_of_loss", "_look_into", "integrate",
+    }  # fmt: skip
+    asking = {
+        name for name, text in with_limits.items() if "_validity(work, k)" in text and name != "_validity"
+    }
+    assert asking == {"_marks", "_kept", "_kind_of_loss"}  # at the end of a step; at a start or a loss
+    assert with_limits["_marks"].count("_validity(") == 1
+    assert "_kept(" not in with_limits["_stages"] + with_limits["_rates"] + with_limits["_control"]
+
+
+def test_the_kernel_says_what_its_limits_cost():
+    spec = gent_lanes()
+    text = emit_lanes(spec)
+    assert f"At the end of every step, {operations_of(spec.validity)} more say" in text
+    assert operations_of(spec.validity) < spec.operations / 2
+    assert "LOCKED" not in emit_lanes(gent_lanes(limits=False))
+
+
+def test_the_kernel_counts_losses_as_the_program_does(gent):
+    assert gent[1].LOCKED == loss.LOCKED
+    for name in NAMES:
+        assert not hasattr(kernel_of(name), "LOCKED")
+
+
+def test_a_kernel_with_limits_is_tidy(gent):
+    _, lanes = gent
+    starts = sorted(
+        getattr(lanes, target.id)
+        for node in ast.parse(Path(lanes.__file__).read_text(encoding="utf-8")).body
+        if isinstance(node, ast.Assign) and "* LANES" in ast.unparse(node.value)
+        for target in node.targets
+    )
+    assert len(set(starts)) == len(starts) and starts[-1] == lanes.SIZE
+    assert max(map(len, Path(lanes.__file__).read_text(encoding="utf-8").splitlines())) <= 120
+    command = [sys.executable, "-m", "ruff", "check", "--isolated", "--select", "F,E7,E9", lanes.__file__]
+    subprocess.run(command, check=True)

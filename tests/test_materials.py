@@ -10,6 +10,7 @@ import pytest
 import sympy as sp
 
 from delagrange.derive import symbols as s
+from delagrange.derive.description import numbered
 from delagrange.derive.emit import emit
 from delagrange.derive.euler_lagrange import equations_of_motion
 from delagrange.derive.kernel import kernel
@@ -21,6 +22,8 @@ from delagrange.derive.load_cases import (
     PURE_SHEAR_CONSISTENT_FREE,
     UNIAXIAL,
 )
+from delagrange.derive.materials import ALPHA, BETA, MOST_OGDEN_TERMS, branch, material
+from delagrange.derive.materials import MATERIALS as REGISTERED
 from delagrange.derive.membrane import membrane, time_derivative
 from delagrange.derive.pipeline import derive
 from delagrange.derive.strain_energy import gent, mooney_rivlin, neo_hookean
@@ -86,8 +89,8 @@ def test_springs_that_share_a_modulus_keep_their_own_share_of_the_reaction():
         PURE_SHEAR_AS_PRINTED,
     )
     xi = s.INELASTIC_STRETCH_PS.value.symbol
-    assert not both.energies.spring_alpha.has(xi)
-    assert both.energies.spring_beta.has(xi)
+    assert not both.energies["spring_alpha"].has(xi)
+    assert both.energies["spring_beta"].has(xi)
 
 
 def _equal_biaxial_with(inelastic):
@@ -116,3 +119,53 @@ def test_an_inelastic_stretch_without_a_law_is_refused():
     one = sp.Integer(1)
     with pytest.raises(ValueError, match="inelastic_stretch has no dashpot rate of its own"):
         equations_of_motion(model, _equal_biaxial_with(lambda xi: (one, one)))
+
+
+def test_registered_materials_take_the_quantities_of_the_symbol_table():
+    assert REGISTERED["Gent"](ALPHA).parameters == (s.SHEAR_MODULUS_ALPHA, s.LOCKING_ALPHA)
+    assert REGISTERED["Mooney-Rivlin"](BETA).parameters == (s.SHEAR_MODULUS_BETA, s.SECOND_MODULUS_BETA)
+    assert REGISTERED["Gent"](branch(1, of=1)).parameters == REGISTERED["Gent"](BETA).parameters
+
+
+def test_registered_materials_number_the_quantities_of_a_branch():
+    gent_of_second = REGISTERED["Gent"](branch(2, of=3))
+    expected = (numbered(s.SHEAR_MODULUS_BETA, 2), numbered(s.LOCKING_BETA, 2))
+    assert gent_of_second.parameters == expected
+    assert [each.name for each in expected] == ["shear_modulus_beta_2", "locking_beta_2"]
+
+
+def test_no_two_parameters_of_a_membrane_share_a_name_or_a_symbol():
+    """Whatever the material of each spring; positive and real symbols of one name would print alike."""
+    springs = (ALPHA, BETA, *(branch(number, of=3) for number in (1, 2, 3)))
+    for material_of_spring in REGISTERED.values():
+        terms = MOST_OGDEN_TERMS if material_of_spring.name == "Ogden" else 1
+        found = [q for spring in springs for q in material_of_spring(spring, terms).parameters]
+        assert len({q.name for q in found}) == len({q.symbol.name for q in found}) == len(found)
+
+
+@pytest.mark.parametrize("name", ["neo-Hookean", "Neo Hookean", "NEO_HOOKEAN", "arruda boyce"])
+def test_a_name_is_found_however_it_is_written(name):
+    assert "".join(filter(str.isalpha, material(name).name.lower())) == "".join(
+        filter(str.isalpha, name.lower())
+    )
+
+
+@pytest.mark.parametrize(
+    ("asked", "reason"),
+    [
+        (lambda: material("Gnet"), "material must be one of .*Gent.*did you mean 'Gent'"),
+        (lambda: material(3), "material must be one of"),
+        (
+            lambda: REGISTERED["Ogden"](ALPHA, 10),
+            "number of terms of Ogden must be an integer from 1 to 9, got 10",
+        ),
+        (
+            lambda: REGISTERED["Gent"](ALPHA, 2),
+            "number of terms of Gent must be an integer from 1 to 1, got 2",
+        ),
+        (lambda: branch(4, of=3), "number of a branch must be an integer from 1 to 3, got 4"),
+    ],
+)
+def test_what_is_not_there_is_refused(asked, reason):
+    with pytest.raises(ValueError, match=reason):
+        asked()

@@ -82,12 +82,12 @@ def test_electrostatic_energy_is_that_of_a_capacitor(paper):
     l1, l2, l3 = paper.principal_stretches
     L, H, eps, E = s.HALF_LENGTH.symbol, s.HALF_THICKNESS.symbol, s.PERMITTIVITY.symbol, s.FIELD.symbol
     capacitance = eps * (2 * L * l1) * (2 * L * l2) / (2 * H * l3)
-    assert sp.simplify(paper.energies.electrostatic + capacitance * (2 * H * E) ** 2 / 2) == 0
+    assert sp.simplify(paper.energies["electrostatic"] + capacitance * (2 * H * E) ** 2 / 2) == 0
 
 
 def test_forces_do_work_on_the_length_of_the_membrane(paper):
     for force, coordinate in zip(paper.forces, paper.coordinates, strict=True):
-        work_rate = -paper.energies.forces.diff(coordinate.value.symbol)
+        work_rate = -paper.energies["forces"].diff(coordinate.value.symbol)
         assert sp.simplify(work_rate - force.symbol * 2 * s.HALF_LENGTH.symbol) == 0
 
 
@@ -135,7 +135,7 @@ def _loss(model):
 
 
 def _stress_power(model):
-    squares = sum(deviator**2 for deviator in model.dashpot_deviators)
+    squares = sum(deviator**2 for deviator in model.dashpots[0].deviators)
     return model.volume * squares / (2 * s.VISCOSITY.symbol)
 
 
