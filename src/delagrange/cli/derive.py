@@ -10,6 +10,7 @@ import typer
 
 from delagrange.cli import console
 from delagrange.cli import options as o
+from delagrange.cli.derive_file import derive_file
 from delagrange.cli.interruption import interruptible
 from delagrange.cli.verdicts import show
 from delagrange.cli.verify import Details, as_recorded
@@ -28,8 +29,20 @@ Check = Annotated[
 ]
 
 
+ModelFile = Annotated[
+    Path | None,
+    typer.Argument(
+        metavar="[FILE]", help="A membrane of your own, described in TOML.", show_default="the paper's models"
+    ),
+]
+
+
 def derive(
-    out: ModuleFolder = None, check: Check = False, details: Details = False, quiet: o.Quiet = False
+    model: ModelFile = None,
+    out: ModuleFolder = None,
+    check: Check = False,
+    details: Details = False,
+    quiet: o.Quiet = False,
 ) -> None:
     """Derive, check against the paper and write one NumPy module a model.
 
@@ -38,6 +51,10 @@ def derive(
     shear in its formulations), the verdicts on the printed equations, and the
     modules that 'delagrange simulate' integrates. A module needs NumPy only.
 
+    With a FILE, the membrane that it describes instead: its module and its two
+    compiled kernels, all of them or none, in the folder of --out. No code of the
+    file is run; whatever does not make a membrane is refused with its line.
+
     Exit code 1 where a verdict is not the recorded one or, with --check, a
     module is stale.
 
@@ -45,7 +62,11 @@ def derive(
 
       delagrange derive --out modules
       delagrange derive --check
+      delagrange derive my_membrane.toml --out my_models
     """
+    if model is not None:
+        derive_file(model, out, check, quiet)
+        return
     folder = out if out is not None else Path(str(resources.files("delagrange.generated")))
     check_folder(folder) if check else prepare_folder(folder)
     with (
