@@ -17,12 +17,13 @@ import sympy as sp
 from delagrange.derive.derived_equations import DerivedEquation
 from delagrange.derive.printed_tree import Equation
 from delagrange.derive.printed_values import evaluate, evaluate_roughly, to_sympy
-from delagrange.derive.printer import PAPER_TEXT
+from delagrange.derive.printer import text_printer
 
 _DIGITS = 50
 _ZERO = mpmath.mpf(10) ** -35  # relative to the size of the terms
 _ROUGHLY_ZERO = 1e-6
 _POINTS = 3
+_ATTEMPTS = 20
 _SEED = 20150225
 
 
@@ -51,23 +52,41 @@ class Witness:
     slopes: tuple[mpmath.mpf, ...]
 
 
-def _random_point(symbols: tuple[sp.Symbol, ...], random: Random) -> Point:
-    """Values of order one, all different, negative ones too where a symbol allows them."""
+def _random_point(symbols: tuple[sp.Symbol, ...], random: Random, spread: mpmath.mpf) -> Point:
+    """Values of order one, all different, negative ones too where a symbol allows them.
+
+    `spread` below 1 brings the positive ones nearer to 1.
+    """
     point = {}
     for symbol in symbols:
         value = mpmath.mpf(random.randint(10**14, 3 * 10**15)) / 10**15
-        point[symbol] = value if symbol.is_positive else value * random.choice((-1, 1))
+        near = 1 + (value - 1) * spread
+        point[symbol] = near if symbol.is_positive else value * random.choice((-1, 1))
+    return point
+
+
+def _valid_point(symbols: tuple[sp.Symbol, ...], random: Random, validity: tuple[sp.Expr, ...]) -> Point:
+    """A random point where the strain energies hold, so that no logarithm there is complex.
+
+    In the reference state, where all stretches are 1, they do; hence points nearer and nearer to it.
+    """
+    bounds = [sp.lambdify(symbols, bound, "mpmath") for bound in validity]
+    for attempt in range(_ATTEMPTS):
+        point = _random_point(symbols, random, mpmath.mpf("0.7") ** attempt)
+        if all(bound(*(point[symbol] for symbol in symbols)) > 0 for bound in bounds):
+            break
     return point
 
 
 def witness(derived: DerivedEquation, known: tuple[sp.Symbol, ...]) -> Witness:
     """Evaluate a derived equation; `known` are all symbols that a printed equation may use."""
     random, unknown = Random(_SEED), derived.unknown.symbol
-    symbols = tuple(sorted({*known, *derived.residual.free_symbols}, key=str))
+    own = (each.free_symbols for each in (derived.residual, *derived.validity))
+    symbols = tuple(sorted(set(known).union(*own), key=str))
     residual = sp.lambdify(symbols, derived.residual, "mpmath")
     slope = sp.lambdify(symbols, derived.residual.diff(unknown), "mpmath")
     with mpmath.workdps(_DIGITS):
-        points = tuple(_random_point(symbols, random) for _ in range(_POINTS))
+        points = tuple(_valid_point(symbols, random, derived.validity) for _ in range(_POINTS))
         constants = tuple(
             residual(*({**point, unknown: mpmath.mpf(0)}[s] for s in symbols)) for point in points
         )
@@ -142,7 +161,12 @@ def scaling(tree: Equation, derived: DerivedEquation) -> sp.Expr:
 
 
 def _is_zero(expression: sp.Expr) -> bool:
-    return sp.expand(sp.numer(sp.together(expression))) == 0
+    return sp.expand(sp.numer(sp.together(alike(expression)))) == 0
+
+
+def alike(expression: sp.Expr) -> sp.Expr:
+    """The same with the argument of each logarithm as one fraction, so that equal ones look equal."""
+    return expression.replace(sp.log, lambda argument: sp.log(sp.cancel(sp.together(argument))))
 
 
 def _why_not(tree: Equation, subject: Witness) -> str:
@@ -165,6 +189,8 @@ def compare(tree: Equation, subject: Witness) -> Comparison:
         return Comparison(False, factor, "it agrees in numbers to 35 digits, but no proof of it was found")
     if not factor.is_nonzero:
         return Comparison(
-            False, factor, f"it is the derived one times {PAPER_TEXT(factor)}, which can vanish"
+            False,
+            factor,
+            f"it is the derived one times {text_printer(subject.derived.quantities)(factor)}, which can vanish",
         )
     return Comparison(True, factor)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from itertools import product
 
 import sympy as sp
@@ -17,7 +17,8 @@ from delagrange.derive.dimensions import (
     symbol_dimensions,
 )
 from delagrange.derive.euler_lagrange import EquationsOfMotion
-from delagrange.derive.symbols import Quantity
+from delagrange.derive.reactions import at_rest
+from delagrange.derive.symbols import QUANTITIES, Quantity
 
 
 @dataclass(frozen=True)
@@ -28,6 +29,8 @@ class DerivedEquation:
     quantity: str  # e.g. "equation_of_motion_1"
     unknown: Quantity
     residual: sp.Expr
+    quantities: tuple[Quantity, ...] = QUANTITIES  # all that the residual may be written in
+    validity: tuple[sp.Expr, ...] = ()  # [1], each positive where the residual holds
 
 
 @dataclass(frozen=True)
@@ -53,12 +56,29 @@ def derived_equations(eom: EquationsOfMotion) -> Mapping[str, DerivedEquation]:
         stated[f"equation_of_motion_{number}"] = (c.acceleration, residual)
     for number, (i, rate) in enumerate(zip(load_case.internals, eom.internal_rates, strict=True), start=1):
         stated[f"dashpot_rate_{number}"] = (i.rate, i.rate.symbol - rate)
-    for reaction, force in zip(load_case.reactions, eom.reaction_forces, strict=True):
-        stated["reaction_force"] = (reaction, reaction.symbol - force)
+    for number, (reaction, force) in enumerate(
+        zip(load_case.reactions, eom.reaction_forces, strict=True), start=1
+    ):
+        name = f"reaction_force_{number}" if len(load_case.reactions) > 1 else "reaction_force"
+        stated[name] = (reaction, reaction.symbol - force)
+    if (balance := eom.charge_balance) is not None:
+        stated["charge_rate"] = (balance.rate, balance.rate.symbol - balance.law)
     return {
-        name: DerivedEquation(load_case.name, name, unknown, residual)
-        for name, (unknown, residual) in stated.items()
+        name: DerivedEquation(load_case.name, name, unknown, residual, eom.quantities, eom.validity)
+        for name, (unknown, residual) in (stated | _static_balances(eom)).items()
     }
+
+
+def _static_balances(eom: EquationsOfMotion) -> dict[str, tuple[Quantity, sp.Expr]]:
+    """The equations of motion at rest, of the coordinates that an applied force works on."""
+    inputs = [each for each in eom.load_case.inputs if each.unit == "N"]
+    stated = {}
+    for number, residual in enumerate(eom.residuals, start=1):
+        force = next((each for each in inputs if residual.has(each.symbol)), None)
+        if force is not None:
+            static = at_rest(residual, eom.load_case.coordinates)
+            stated[f"static_balance_{number}"] = (force, static)
+    return stated
 
 
 def check_dimensions(equation: DerivedEquation) -> tuple[TermDimension, ...]:
@@ -66,11 +86,12 @@ def check_dimensions(equation: DerivedEquation) -> tuple[TermDimension, ...]:
 
     Raises:
         DimensionError: a term has not the dimension of the others, or all of them not that of a
-            residual that the unknown makes: J for an equation of motion, the unknown's unit else.
+            residual that the unknown makes: J for an equation of motion or a balance at rest, the unknown's unit else.
     """
-    unit = "J" if equation.quantity.startswith("equation_of_motion") else equation.unknown.unit
+    varied = equation.quantity.startswith(("equation_of_motion", "static_balance"))
+    unit = "J" if varied else equation.unknown.unit
     made = _Made(equation.quantity, sp.expand(equation.residual), Dimension.of_unit(unit))
-    return _check(equation.model, made, symbol_dimensions())
+    return _check(equation.model, made, symbol_dimensions(equation.quantities))
 
 
 def check_model_dimensions(eom: EquationsOfMotion) -> int:
@@ -84,7 +105,7 @@ def check_model_dimensions(eom: EquationsOfMotion) -> int:
     Raises:
         DimensionError: a term has another unit; the message has the model, the part and the term.
     """
-    dimensions = symbol_dimensions()
+    dimensions = symbol_dimensions(eom.quantities)
     parts = [made for made in _parts(eom) if made.expression != 0]  # a zero has every unit
     for made in parts:
         _check(eom.load_case.name, made, dimensions)
@@ -94,8 +115,8 @@ def check_model_dimensions(eom: EquationsOfMotion) -> int:
 def _parts(eom: EquationsOfMotion) -> Iterator[_Made]:
     energy, power, force = (Dimension.of_unit(unit) for unit in ("J", "W", "N"))
     yield _Made("kinetic_energy", eom.kinetic_energy, energy)
-    for part in fields(eom.energies):
-        yield _Made(f"potential_energy, {part.name}", getattr(eom.energies, part.name), energy)
+    for part in eom.energies.parts:
+        yield _Made(f"potential_energy, {part.name}", part.expression, energy)
     yield from _entries("mass_matrix", eom.mass_matrix, Dimension.of_unit("kg m^2"))
     for term in eom.force_terms:
         yield from _entries(term.name, term.vector, energy)
@@ -104,7 +125,10 @@ def _parts(eom: EquationsOfMotion) -> Iterator[_Made]:
     yield from _numbered("static_reaction_force", eom.static_reaction_forces, force)
     yield from _numbered("edge_force", eom.edge_forces, force)
     yield _Made("force_power", eom.force_power, power)
-    yield from _numbered("deviatoric_stress", eom.dissipation.deviators, Dimension.of_unit("Pa"))
+    for number, dashpot in enumerate(eom.dissipation.dashpots, start=1):
+        branch = f"_{number}" if len(eom.dissipation.dashpots) > 1 else ""
+        yield from _numbered(f"deviatoric_stress{branch}", dashpot.deviators, Dimension.of_unit("Pa"))
+    yield from _numbered("validity", eom.validity, Dimension())
     yield _Made("dashpot_power", eom.dashpot_power, power)
     yield from _jacobian_entries(eom)
 

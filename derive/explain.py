@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import sympy as sp
 
-from delagrange.derive.compare import Witness, compare, may_agree
+from delagrange.derive.compare import Witness, alike, compare, may_agree, printed_residual, scaling
 from delagrange.derive.derived_equations import DerivedEquation
 from delagrange.derive.edits import Edit, single_edits
 from delagrange.derive.latex_tokens import Span
@@ -22,7 +22,7 @@ from delagrange.derive.printed_tree import (
     walk,
 )
 from delagrange.derive.printed_values import to_sympy
-from delagrange.derive.printer import PAPER_TEXT
+from delagrange.derive.printer import text_printer
 
 Monomials = dict[sp.Expr, sp.Expr]  # what varies -> its number
 
@@ -30,10 +30,16 @@ Monomials = dict[sp.Expr, sp.Expr]  # what varies -> its number
 def _monomials(expression: sp.Expr) -> Monomials:
     """Terms of an expanded expression, numbers apart."""
     found: Monomials = {}
-    for term in sp.Add.make_args(sp.expand(sp.expand_log(expression))):
-        number, rest = term.as_coeff_Mul()
+    for term in sp.Add.make_args(sp.expand(sp.expand_log(alike(expression)))):
+        number, rest = _one_form(term).as_coeff_Mul()
         found[rest] = found.get(rest, sp.S.Zero) + number
     return {rest: number for rest, number in found.items() if number != 0}
+
+
+def _one_form(term: sp.Expr) -> sp.Expr:
+    """A term over a sum as one fraction: `x / (1 - x / a)` and `a x / (a - x)` then look equal."""
+    over_a_sum = any(power.exp.is_negative and power.base.is_Add for power in term.atoms(sp.Pow))
+    return sp.factor(sp.together(term)) if over_a_sum else term
 
 
 def _printed_leaves(node: Node, around: sp.Expr) -> Iterator[tuple[sp.Expr, Span]]:
@@ -65,12 +71,42 @@ def _opened_factor(factors: tuple[Node, ...]) -> Node | None:
     )
 
 
-def unmatched_terms(
-    tree: Equation, derived: DerivedEquation, factor: sp.Expr
-) -> tuple[tuple[str, ...], tuple[str, ...]]:
+Unmatched = tuple[tuple[str, ...], tuple[str, ...]]  # from the derivation, from the print
+
+
+def fewest_unmatched(tree: Equation, derived: DerivedEquation) -> Unmatched:
+    """`unmatched_terms`, scaled by the coefficients of the unknown or, where fewer are left so, of another symbol.
+
+    The scale of a balance of forces is free, and the slip may be in the term of the unknown itself: then the
+    force or a modulus tells the scale. What is solved for its unknown has no other scale.
+    """
+    found = unmatched_terms(tree, derived, scaling(tree, derived))
+    if not derived.quantity.startswith(("equation_of_motion", "static_balance")):
+        return found
+    count = len(_monomials(derived.residual))
+    for factor in _other_scalings(tree, derived):
+        if 2 * len(found[0]) <= count:
+            break
+        found = min(found, unmatched_terms(tree, derived, factor), key=lambda terms: sum(map(len, terms)))
+    return found
+
+
+def _other_scalings(tree: Equation, derived: DerivedEquation) -> Iterator[sp.Expr]:
+    """Ratios of the coefficients of forces and moduli, where they are single terms."""
+    printed = printed_residual(tree)
+    for each in derived.quantities:
+        slope = derived.residual.diff(each.symbol)
+        if each.unit not in ("N", "Pa") or slope == 0:
+            continue
+        ratio = sp.factor(sp.cancel(sp.together(printed.diff(each.symbol) / slope)))
+        if ratio != 0 and not ratio.has(sp.Add, sp.zoo, sp.nan):
+            yield ratio
+
+
+def unmatched_terms(tree: Equation, derived: DerivedEquation, factor: sp.Expr) -> Unmatched:
     """Derived terms (scaled as the printed equation is) and printed terms that have no partner.
 
-    Derived ones as text in the notation of the paper, printed ones as the LaTeX that stands there.
+    Derived ones as text in the notation of the model, printed ones as the LaTeX that stands there.
     """
     scale = factor if factor != 0 else sp.S.One
     own = _monomials(derived.residual)
@@ -81,8 +117,9 @@ def unmatched_terms(
         for rest, number in monomials.items():
             printed[rest] = printed.get(rest, sp.S.Zero) + number
     apart = {rest for rest in {**own, **printed} if own.get(rest, 0) != printed.get(rest, 0)}
+    text = text_printer(derived.quantities)
     from_derivation = tuple(
-        PAPER_TEXT(sp.factor(scale * number * rest)) for rest, number in own.items() if rest in apart
+        text(sp.factor(scale * number * rest)) for rest, number in own.items() if rest in apart
     )
     from_print = tuple(tree.literal(span) for span, monomials in leaves if apart & set(monomials))
     return tuple(sorted(from_derivation)), from_print

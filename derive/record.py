@@ -10,7 +10,6 @@ from importlib import resources
 from pathlib import Path
 from typing import Any
 
-from delagrange.derive.printer import PAPER_TEXT
 from delagrange.derive.verdict import Outcome, Verdict
 
 RECORD = "sheng_2015_verdicts.json"
@@ -18,8 +17,9 @@ RECORD = "sheng_2015_verdicts.json"
 
 def as_record(verdict: Verdict) -> dict[str, Any]:
     """A verdict as JSON can hold it."""
-    scaled = verdict.outcome is Outcome.SCALED
-    fields = asdict(verdict) | {"factor": PAPER_TEXT(verdict.factor) if scaled else ""}
+    fields = asdict(verdict)
+    factor = fields.pop("factor_text")
+    fields["factor"] = factor if verdict.outcome is Outcome.SCALED else ""
     return {
         name: list(value) if isinstance(value, tuple) else str(value)
         for name, value in fields.items()

@@ -5,7 +5,6 @@ from __future__ import annotations
 import textwrap
 from itertools import takewhile
 
-from delagrange.derive.printer import PAPER_TEXT
 from delagrange.derive.verdict import Outcome, Verdict
 
 HEADINGS = ("Eq.", "states", "derivation", "verdict", "detail")
@@ -34,7 +33,7 @@ def detail(verdict: Verdict) -> str:
     """What a person needs to know beyond the verdict, in one paragraph."""
     parts = []
     if verdict.outcome is Outcome.SCALED:
-        parts.append(f"printed = derived x {PAPER_TEXT(verdict.factor)}")
+        parts.append(f"printed = derived x {verdict.factor_text}")
     if verdict.derived:
         parts.append(f"derived: {verdict.derived}")
     if verdict.derived_unmatched:

@@ -200,7 +200,7 @@ def _is_script_character(token: Token) -> bool:
 
 
 def label_at(tokens: tuple[Token, ...], at: int) -> str:
-    """The text of a script of letters and digits alone, typesetting dropped, else ""."""
+    """The text of a script of letters, digits and commas alone, typesetting dropped, else ""."""
     if tokens[at].text != "{":
         return tokens[at].text if _is_script_character(tokens[at]) else ""
     text, depth = "", 0
@@ -208,7 +208,7 @@ def label_at(tokens: tuple[Token, ...], at: int) -> str:
         depth += {"{": 1, "}": -1}.get(token.text, 0)
         if depth == 0:
             return text
-        if token.kind in ("number", "letter") or token.text in GREEK:
+        if token.kind in ("number", "letter") or token.text in GREEK or token.text == ",":
             # "\alpha x" must not become the command "\alphax"
             text += (" " if _ends_in_command(text) and token.kind == "letter" else "") + token.text
         elif token.text not in FONTS and token.text not in ("{", "}"):

@@ -30,6 +30,7 @@ class Verdict:
     quantity: str  # what the equation gives, e.g. "equation_of_motion_1"
     outcome: Outcome
     factor: sp.Expr = sp.S.One
+    factor_text: str = "1"  # the same in the notation of the model
     derived_unmatched: tuple[str, ...] = ()
     printed_unmatched: tuple[str, ...] = ()
     corrections: tuple[str, ...] = ()

@@ -7,23 +7,26 @@ from dataclasses import replace
 
 import sympy as sp
 
-from delagrange.derive.compare import Comparison, Witness, compare, scaling, witness
+from delagrange.derive.compare import Comparison, Witness, compare, witness
 from delagrange.derive.derived_equations import DerivedEquation, derived_equations
 from delagrange.derive.euler_lagrange import EquationsOfMotion
-from delagrange.derive.explain import corrections, unmatched_terms
+from delagrange.derive.explain import corrections, fewest_unmatched
 from delagrange.derive.printed_dimensions import check_printed
-from delagrange.derive.printed_tree import Equation
-from delagrange.derive.printer import PAPER_TEXT
+from delagrange.derive.printed_tree import Equation, walk
+from delagrange.derive.printer import text_printer
 from delagrange.derive.published import Paper, PrintedEquation
-from delagrange.derive.symbols import QUANTITIES
+from delagrange.derive.symbols import Quantity
 from delagrange.derive.verdict import Outcome, Verdict
 
 # Printed for the general membrane, i.e. before any load case
 _FAMILY = {"biaxial": "membrane"}
+_LONGEST_CORRECTED = 600  # parts of a printed tree; the edits to try, and the time of each, grow with them
+_TOO_LONG = "too long to try what single edit would mend it"
 
 
-def _known_symbols() -> tuple[sp.Symbol, ...]:
-    return tuple(quantity.symbol for quantity in QUANTITIES)
+def symbols_of(quantities: tuple[Quantity, ...]) -> tuple[sp.Symbol, ...]:
+    """The symbols of the algebra that a printed equation of a model may use."""
+    return tuple(quantity.symbol for quantity in quantities)
 
 
 def printed_for(eom: EquationsOfMotion, paper: Paper) -> tuple[PrintedEquation, ...]:
@@ -46,7 +49,7 @@ def _verdict(printed: PrintedEquation, derived: Mapping[str, DerivedEquation], p
     equation = derived[printed.quantity]
     if printed.latex is None:
         return _missing(printed, equation)
-    verdict = verdict_on(printed.read(paper.table), witness(equation, _known_symbols()))
+    verdict = verdict_on(printed.read(paper.table), witness(equation, symbols_of(equation.quantities)))
     repairs = (f"read {r.new} for {r.old}" for r in printed.repairs)
     note = "; ".join(filter(None, (verdict.note, printed.note, *repairs)))
     return replace(verdict, number=printed.number, note=note)
@@ -55,7 +58,7 @@ def _verdict(printed: PrintedEquation, derived: Mapping[str, DerivedEquation], p
 def _missing(printed: PrintedEquation, equation: DerivedEquation) -> Verdict:
     """No verdict where nothing is printed; the derived equation stands in its place."""
     unknown = equation.unknown
-    solved = f"{unknown.text} = {PAPER_TEXT(unknown.symbol - equation.residual)}"
+    solved = f"{unknown.text} = {text_printer(equation.quantities)(unknown.symbol - equation.residual)}"
     return Verdict(
         printed.number, equation.model, printed.quantity, Outcome.MISSING, derived=solved, note=printed.note
     )
@@ -70,17 +73,20 @@ def verdict_on(tree: Equation, subject: Witness, *, explained: bool = True) -> V
         subject.derived.quantity,
         _outcome(comparison),
         comparison.factor,
+        factor_text=text_printer(subject.derived.quantities)(comparison.factor),
         unit_faults=tuple(str(fault) for fault in check_printed(tree) if not fault.ok),
         note=f"{comparison.reason}: compared as differing" if comparison.reason else "",
     )
     if comparison.equal or not explained:
         return verdict
-    from_derivation, from_print = unmatched_terms(tree, subject.derived, scaling(tree, subject.derived))
+    short = sum(1 for _ in walk(tree)) <= _LONGEST_CORRECTED
+    from_derivation, from_print = fewest_unmatched(tree, subject.derived)
     return replace(
         verdict,
         derived_unmatched=from_derivation,
         printed_unmatched=from_print,
-        corrections=corrections(tree, subject),
+        corrections=corrections(tree, subject) if short else (),
+        note=verdict.note if short else "; ".join(filter(None, (verdict.note, _TOO_LONG))),
     )
 
 

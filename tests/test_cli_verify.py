@@ -183,3 +183,83 @@ def test_ctrl_c_while_deriving(monkeypatch, capsys):
     monkeypatch.setattr(pipeline, "check", interrupted)
     assert main(["verify", "--quiet"]) == 130
     assert capsys.readouterr().err == "delagrange: interrupted: nothing was written\n"
+
+
+# --- equations of one's own -----------------------------------------------------------------------------
+
+RATE = r"\dot{\xi} = \frac{\mu^\beta}{6\eta}(\lambda^2 \xi^{-1} - \lambda^{-4} \xi^5)"
+GENT = str(Path(__file__).parent / "models" / "gent_two_branches.toml")
+
+
+def test_a_pasted_equation_that_is_equal(capsys):
+    both = ["--equation", RATE, "--equation", rf"2 {RATE}"]
+    assert main(["verify", "equal-biaxial", *both, "--brief", "--quiet"]) == 1
+    first, second = rows_in(capsys.readouterr().out)
+    assert first == ["(1)", "dashpot rate 1", "equal_biaxial", "equal"]
+    assert second[-1] == "differs"
+    assert main(["verify", "equal-biaxial", "--equation", RATE, "--quiet"]) == 0
+
+
+def test_a_pasted_equation_that_differs_is_explained_unless_brief(tmp_path, capsys):
+    wrong, out = RATE.replace("6", "3"), tmp_path / "verdicts.md"
+    assert main(["verify", "equal-biaxial", "--equation", wrong, "--markdown", str(out), "--quiet"]) == 1
+    words = " ".join(capsys.readouterr().out.split())
+    assert "without partner" in words and "one edit mends it: coefficient" in words
+    (line,) = out.read_text(encoding="utf-8").splitlines()[2:]
+    assert markdown_cells(line)[:4] == ["(1)", "dashpot rate 1", "equal_biaxial", "differs"]
+    assert main(["verify", "equal-biaxial", "--equation", wrong, "--brief", "--quiet"]) == 1
+    assert "without partner" not in capsys.readouterr().out
+
+
+def test_a_file_of_equations_with_a_table_of_symbols(tmp_path, capsys):
+    equations, symbols = tmp_path / "equations.toml", tmp_path / "symbols.toml"
+    equations.write_text("[[equation]]\nnumber = '12'\nlatex = '''T = m \\dot{x}^2'''\n", encoding="utf-8")
+    mass = r"\frac{8}{3}\rho L^2 H (L^2 + 2 H^2 x^{-6})"
+    symbols.write_text(f"[symbols]\nx = 'stretch'\nm = {{ latex = '{mass}' }}\n", encoding="utf-8")
+    arguments = ["verify", GENT, "--equations", str(equations), "--symbols", str(symbols), "--quiet"]
+    assert main(arguments) == 0
+    assert rows_in(capsys.readouterr().out) == [["(12)", "kinetic energy", "gent_two_branches", "equal"]]
+    symbols.write_text("[symbols]\nx = 'strech'\n", encoding="utf-8")
+    assert main(arguments) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert f"{symbols}, line 2: symbol x stands for 'strech'" in line and "did you mean 'stretch'" in line
+
+
+def test_a_model_is_listed_to_copy_from(capsys, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "200")
+    assert main(["verify", "pure-shear", "--formulation", "as_printed", "--quiet"]) == 0
+    printed = capsys.readouterr().out
+    assert "Symbols of pure_shear_as_printed" in printed and r"\lambda_{2p}" in printed
+    lines = printed.splitlines()
+    reaction = lines[lines.index("reaction_force:") + 1].strip()
+    arguments = ["verify", "pure-shear", "--formulation", "as_printed", "--equation", reaction, "--quiet"]
+    assert main(arguments) == 0
+    assert main([*arguments[:2], *arguments[4:]]) == 1  # the consistent reaction has the thickness inertia
+
+
+def test_a_described_model_is_listed(capsys):
+    assert main(["verify", GENT, "--quiet"]) == 0
+    printed = capsys.readouterr().out
+    assert r"\mu_{2}^{\beta}" in printed and "\nequation_of_motion_1:\n" in printed
+
+
+@pytest.mark.parametrize(
+    ("arguments", "reason"),
+    [
+        (["--equation", "T = 1"], "--equation needs a MODEL"),
+        (["equal-biaxial", "--quantity", "kinetic_energy"], "--quantity says what each --equation states"),
+        (["equal-biaxial", "--symbols", "s.toml"], "--symbols needs equations"),
+        (["equal-biaxal", "--equation", "T = 1"], "did you mean 'equal_biaxial'"),
+        (["biaxial", "--formulation", "consistent"], "biaxial has one formulation"),
+        (["model.py", "--equation", "T = 1"], "a module holds code, not its derivation"),
+        ([GENT, "--formulation", "consistent"], "choose a built-in model"),
+        (["none.toml", "--equation", "T = 1"], "none.toml: cannot be read"),
+        (["uniaxial", "--equations", "none.toml"], "none.toml: cannot be read"),
+        (["uniaxial", "--equation", "T = q"], "column 5: found 'q'"),
+        (["uniaxial", "--equation", "T = 1", "--quantity", "energy"], "is no equation of uniaxial"),
+    ],
+)
+def test_what_cannot_be_checked_is_refused_in_one_line(arguments, reason, capsys):
+    assert main(["verify", *arguments, "--quiet"]) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    assert reason in line

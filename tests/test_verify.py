@@ -190,7 +190,7 @@ ENTRY = sp.ImmutableMatrix([[FORCE_N]])
         (
             "potential_energy, electrostatic",
             lambda eom: {
-                "energies": replace(eom.energies, electrostatic=eom.energies.electrostatic + FORCE_N)
+                "energies": eom.energies.with_part("electrostatic", eom.energies["electrostatic"] + FORCE_N)
             },
         ),
         ("mass_matrix[0, 0]", lambda eom: {"mass_matrix": eom.mass_matrix + ENTRY}),
@@ -232,8 +232,10 @@ def spoiled_entry(matrix, i, j):
 
 
 def spoiled_stress(dissipation):
-    first, second, third = dissipation.deviators
-    return replace(dissipation, deviators=(first, second + FORCE_N, third))
+    dashpot = dissipation.dashpots[0]
+    first, second, third = dashpot.deviators
+    spoiled = replace(dashpot, deviators=(first, second + FORCE_N, third))
+    return replace(dissipation, dashpots=(spoiled,))
 
 
 def test_a_dashpot_power_with_another_unit_is_named(equations, monkeypatch):

@@ -1,0 +1,101 @@
+"""`delagrange verify MODEL`: a user's equations against a model, or the model's own to copy from."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from rich.text import Text
+
+from delagrange.cli import console
+from delagrange.cli.interruption import interruptible
+from delagrange.models import is_path, load_model
+
+if TYPE_CHECKING:
+    from delagrange.derive.euler_lagrange import EquationsOfMotion
+    from delagrange.derive.verdict import Verdict
+
+
+def verify_pasted(
+    model: str,
+    formulation: str | None,
+    lateral_dashpot: str | None,
+    pasted: list[str],
+    file: Path | None,
+    symbols: Path | None,
+    quantity: str | None,
+    quiet: bool,
+) -> tuple[Verdict, ...]:
+    """The verdicts on equations as pasted and those of a file; all is read before anything is derived.
+
+    Raises:
+        ValueError: a model, a file, an equation or a symbol is not understood.
+    """
+    from delagrange.derive.pasted import PastedEquation, check_equations
+    from delagrange.derive.pasted_file import PastedFile, read_equations, read_symbols
+
+    found = PastedFile(()) if file is None else read_equations(file)
+    entries = found.symbols + (() if symbols is None else read_symbols(symbols))
+    equations = (*(PastedEquation(latex, quantity=quantity) for latex in pasted), *found.equations)
+    eom = _equations_of(model, formulation, lateral_dashpot, quiet)
+    with interruptible("nothing was written"), console.messages(quiet).status("checking"):
+        return check_equations(eom, equations, entries)
+
+
+def list_model(model: str, formulation: str | None, lateral_dashpot: str | None, quiet: bool) -> None:
+    """Print the symbols and the equations of a model; raises as `verify_pasted`."""
+    from delagrange.derive.pasted_listing import listed_equations, listed_symbols
+
+    eom = _equations_of(model, formulation, lateral_dashpot, quiet)
+    table = console.table("symbol", "quantity", "unit", "meaning")
+    for each in listed_symbols(eom):
+        quantity = each.quantity
+        table.add_row(Text(each.latex), quantity.name, Text(quantity.unit), Text(quantity.meaning))
+    console.show(f"Symbols of {eom.load_case.name}", table)
+    console.output().print(Text(f"\nEquations of {eom.load_case.name}", style="bold"))
+    for equation in listed_equations(eom):
+        print(f"\n{equation.quantity}:\n  {equation.latex}")
+
+
+def _equations_of(
+    model: str, formulation: str | None, lateral_dashpot: str | None, quiet: bool
+) -> EquationsOfMotion:
+    with interruptible("nothing was written"), console.messages(quiet).status(f"deriving {model}"):
+        if model.endswith(".toml"):
+            if formulation is not None or lateral_dashpot is not None:
+                raise ValueError(
+                    f"--formulation and --lateral-dashpot choose a built-in model; {model} says its own"
+                )
+            return _described(Path(model))
+        return _built_in(model, formulation, lateral_dashpot)
+
+
+def _described(path: Path) -> EquationsOfMotion:
+    from delagrange.derive.model_description import describe
+    from delagrange.derive.model_file import read_model_file
+    from delagrange.derive.user_model import description_equations
+
+    description = describe(read_model_file(path))
+    try:
+        return description_equations(description)
+    except ValueError as error:
+        raise ValueError(f"{path}: {' '.join(str(error).split())}") from error
+
+
+def _built_in(model: str, formulation: str | None, lateral_dashpot: str | None) -> EquationsOfMotion:
+    """A model by the name that all commands know; `biaxial`, which has no module, is the membrane of two forces."""
+    from delagrange.derive import pipeline
+    from delagrange.derive.load_cases import BIAXIAL, EMITTED
+
+    cases = {case.name: case for case in (BIAXIAL, *EMITTED)}
+    name = model.replace("-", "_")
+    if name == BIAXIAL.name and (formulation is not None or lateral_dashpot is not None):
+        raise ValueError("biaxial has one formulation: leave --formulation and --lateral-dashpot out")
+    if name != BIAXIAL.name:
+        if is_path(model):
+            raise ValueError(
+                f"model {model}: a module holds code, not its derivation; give the membrane in TOML (.toml) that "
+                "it was derived from"
+            )
+        name = load_model(model, formulation, lateral_dashpot).MODEL
+    return pipeline.derive(pipeline.paper_membrane(), cases[name])
