@@ -397,9 +397,9 @@ def test_large_samples_are_integrated_in_smaller_chunks():
 def test_auto_is_an_engine_of_the_registry():
     model = dl.load_model("equal_biaxial")
     for method, control, extrema in [("DOP853", None, "dense"), ("RK45", "ode45", "steps")]:
-        assert resolve_engine("auto", method, control, extrema, model, 0.0) in engines.ENGINES
+        assert resolve_engine("auto", method, control, extrema, model, []) in engines.ENGINES
     for name in engines.ENGINES:
-        assert resolve_engine(name, "DOP853", None, "dense", model, 0.0) == name
+        assert resolve_engine(name, "DOP853", None, "dense", model, []) == name
 
 
 def test_threads_reach_the_settings(monkeypatch):

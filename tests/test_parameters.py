@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from delagrange import SHENG_2015, Parameters
-from delagrange.parameters import CHANGEABLE_UNITS, MATERIAL_UNITS, material_values
+from delagrange.parameters import CHANGEABLE_UNITS, MATERIAL_UNITS
 
 positive = st.floats(1e-12, 1e12)
 
@@ -66,8 +66,8 @@ def test_an_unknown_name_is_answered_with_the_nearest():
 
 
 def test_arrays_broadcast_over_a_grid():
-    values = material_values(SHENG_2015, {"relaxation_time": np.array([1.0, 2.0])})
+    values = SHENG_2015.material.changed({"relaxation_time": np.array([1.0, 2.0])})
     np.testing.assert_array_equal(values["viscosity"], 4.2e4 * np.array([1.0, 2.0]))
     with pytest.raises(ValueError, match="density"):
-        material_values(SHENG_2015, {"density": np.array([1.0, -2.0])})
+        SHENG_2015.material.changed({"density": np.array([1.0, -2.0])})
     assert CHANGEABLE_UNITS["relaxation_time"] == "s"

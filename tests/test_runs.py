@@ -13,7 +13,6 @@ import delagrange as dl
 from delagrange.reproduction import processes, store
 from delagrange.reproduction.all_runs import Runs, all_runs, run_all
 from delagrange.reproduction.cases import MOTIONS, RESPONSES, Load
-from delagrange.reproduction.numerics import numerics_named
 from delagrange.reproduction.published_numbers import PEAKS
 from delagrange.reproduction.runs import (
     ACCURATE,
@@ -107,12 +106,6 @@ def test_an_unknown_load_is_refused():
     computed = response(SHORT, PAPER_LIKE, frequency=np.array([371.0]))
     with pytest.raises(ValueError, match=r"Fig\. 4 has no curve of Load\(force=9.0"):
         curve(computed, Load(9.0, 1e6))
-
-
-def test_numerics_by_name():
-    assert numerics_named("paper") is PAPER_LIKE
-    with pytest.raises(ValueError, match="one of accurate, paper; got 'exact'"):
-        numerics_named("exact")
 
 
 @pytest.mark.parametrize("case", MOTIONS, ids=lambda case: case.model)

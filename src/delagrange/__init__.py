@@ -16,12 +16,13 @@ if TYPE_CHECKING:
     from delagrange.analysis.rest.equilibria import equilibria
     from delagrange.analysis.rest.modes import modes
     from delagrange.analysis.rest.pull_in import pull_in
+    from delagrange.analysis.rest.rest_state import rest_state
     from delagrange.analysis.sections import stroboscopic_section
     from delagrange.analysis.steady.response import steady_response
     from delagrange.analysis.steady.stepped_sweep import stepped_sweep
     from delagrange.drive import Constant, Drive, Ramp, Sine, Step, Tabulated
     from delagrange.loss import Limits
-    from delagrange.models import load_model, model_names
+    from delagrange.models import load, load_model, model_names
     from delagrange.parameters import SHENG_2015, Parameters
     from delagrange.response import frequency_response, peaks
     from delagrange.simulation import simulate
@@ -40,6 +41,7 @@ _HOME = {
     "dynamic_pull_in": "analysis.rest.dynamic_pull_in",
     "equilibria": "analysis.rest.equilibria",
     "frequency_response": "response",
+    "load": "models",
     "load_model": "models",
     "lyapunov_spectrum": "analysis.motion.lyapunov",
     "model_names": "models",
@@ -47,6 +49,7 @@ _HOME = {
     "peaks": "response",
     "phase_portrait": "analysis.portrait",
     "pull_in": "analysis.rest.pull_in",
+    "rest_state": "analysis.rest.rest_state",
     "simulate": "simulation",
     "steady_response": "analysis.steady.response",
     "stepped_sweep": "analysis.steady.stepped_sweep",
@@ -67,6 +70,7 @@ __all__ = [
     "dynamic_pull_in",
     "equilibria",
     "frequency_response",
+    "load",
     "load_model",
     "lyapunov_spectrum",
     "model_names",
@@ -74,6 +78,7 @@ __all__ = [
     "peaks",
     "phase_portrait",
     "pull_in",
+    "rest_state",
     "simulate",
     "steady_response",
     "stepped_sweep",

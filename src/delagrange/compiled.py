@@ -19,6 +19,7 @@ from delagrange.ensemble import Report, segments
 from delagrange.kernel_drives import piece_rows
 from delagrange.kernels import kernel_name, load_kernel
 from delagrange.lanes import Interrupted, Outcome, Sampling, Settings, empty_outcome
+from delagrange.locking import name_failures
 from delagrange.problem import Problem
 
 _LOOK = 0.05  # [s], how often progress is reported and the keyboard heard
@@ -76,9 +77,9 @@ def integrate_compiled(
             _run_on_threads(call, settings.threads, _shifted(report, part.start))
         except KeyboardInterrupt as interruption:
             outcome.place_into(part, _outcome(call))
-            raise Interrupted(outcome) from interruption
+            raise Interrupted(name_failures(outcome, problem, settings.limits)) from interruption
         outcome.place_into(part, _outcome(call))
-    return outcome
+    return name_failures(outcome, problem, settings.limits)
 
 
 def _slices(size: int, length: int) -> Iterator[slice]:

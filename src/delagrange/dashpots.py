@@ -1,7 +1,8 @@
 """What becomes of the dashpots: frozen where they stand, relaxed, or evolving with the motion.
 
 A dashpot of infinite viscosity does not flow. That is how it is frozen, so that every integrator and every
-derived equation runs as it is.
+derived equation runs as it is. The charge of a membrane that leaks is part of the state behind the inelastic
+stretches, and no dashpot.
 """
 
 from __future__ import annotations
@@ -13,7 +14,15 @@ from types import ModuleType
 import numpy as np
 
 from delagrange import checks
-from delagrange.initial import checked_initial, initial_units, state_at_start
+from delagrange.initial import (
+    checked_initial,
+    initial_units,
+    is_equilibrium,
+    loaded_equilibrium,
+    state_at_start,
+)
+from delagrange.inputs import CHARGE
+from delagrange.loss import Limits
 from delagrange.problem import Problem
 
 FROZEN, RELAXED, EVOLVING = "frozen", "relaxed", "evolving"
@@ -28,6 +37,21 @@ def frozen(problem: Problem) -> Problem:
     return replace(problem, parameters=parameters)
 
 
+def is_damped(problem: Problem) -> bool:
+    """Whether something damps that no frozen dashpot stops: a dashpot in parallel, or the medium.
+
+    At rest inertia has no slope by the rates, so that what is there is damping.
+    """
+    reference = np.array(problem.model.reference_state(problem.parameters), dtype=float)
+    slopes = problem.jacobian(0.0, reference)[rate_places(problem.model), rate_places(problem.model)]
+    return bool(np.any(slopes != 0))
+
+
+def dashpot_count(model: ModuleType) -> int:
+    """How many dashpots the model has, each of which may flow along several axes."""
+    return sum(entry.name.startswith("viscosity") for entry in model.PARAMETERS)
+
+
 def coordinate_places(model: ModuleType) -> slice:
     """Where the coordinates stand in the state."""
     return slice(0, model.COORDINATE_COUNT)
@@ -40,7 +64,14 @@ def rate_places(model: ModuleType) -> slice:
 
 def dashpot_places(model: ModuleType) -> slice:
     """Where the inelastic stretches of the dashpots stand in the state."""
-    return slice(2 * model.COORDINATE_COUNT, len(model.STATE))
+    charge = charge_place(model)
+    return slice(2 * model.COORDINATE_COUNT, len(model.STATE) if charge is None else charge)
+
+
+def charge_place(model: ModuleType) -> int | None:
+    """Where the nominal charge density stands in the state, last of all; None where no charge is part of it."""
+    names = [entry.name for entry in model.STATE]
+    return names.index(CHARGE) if CHARGE in names else None
 
 
 def given_state(problem: Problem, initial_state: Mapping[str, float] | None) -> np.ndarray:
@@ -54,3 +85,16 @@ def given_state(problem: Problem, initial_state: Mapping[str, float] | None) -> 
     given = checked_initial(model, initial_state)
     values = {name: checks.scalar(name, value, units[name]) for name, value in given.items()}
     return state_at_start(model, np.array(model.reference_state(problem.parameters), dtype=float), values)
+
+
+def starting_state(
+    problem: Problem, initial_state: Mapping[str, float] | str | None, limits: Limits
+) -> np.ndarray:
+    """The state at t = 0, (n_state,): as `given_state`, or the loaded equilibrium if that is asked for.
+
+    Raises:
+        ValueError: as `given_state`; another text; or forces under which there is no equilibrium.
+    """
+    if is_equilibrium(problem.model, initial_state):
+        return loaded_equilibrium(problem, limits)
+    return given_state(problem, initial_state)

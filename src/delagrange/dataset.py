@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 from importlib.metadata import version
+from pathlib import Path
 from types import ModuleType
 
 import numpy as np
+import xarray as xr
 
 from delagrange.lanes import Outcome
 from delagrange.loss import COMPLETED, STATUS, STATUS_MEANING, Limits
+from delagrange.material import Material
 from delagrange.parameters import Parameters
 from delagrange.problem import Problem
+from delagrange.user_files import is_users
 
 AMPLITUDE_DEFINITION = "half of peak to peak over the window, transient included"
 AVERAGE_DEFINITIONS = {
@@ -122,7 +126,16 @@ def sample_variables(
     return data
 
 
-def run_attributes(problem: Problem, parameters: Parameters, limits: Limits) -> dict[str, object]:
+def forces_text(found: xr.Dataset) -> str:
+    """The single forces among the coordinates: `0.5 N`, or `force_1 0.3 N, force_2 0 N` where there are others."""
+    if "force" in found.coords:
+        return f"{float(found['force']):g} N"
+    forces = {name: value for name, value in found.coords.items() if value.attrs.get("units") == "N"}
+    given = [f"{name} {float(value):g} N" for name, value in forces.items() if value.ndim == 0]
+    return ", ".join(given) or "0 N"
+
+
+def run_attributes(problem: Problem, parameters: Parameters | Material, limits: Limits) -> dict[str, object]:
     """What a run was made of: model, single-valued parameters with units, drives, limits, version and source."""
     model = problem.model
     single: dict[str, object] = {}
@@ -140,5 +153,12 @@ def run_attributes(problem: Problem, parameters: Parameters, limits: Limits) -> 
         "smallest_stretch": limits.smallest_stretch,
         "largest_stretch": limits.largest_stretch,
         "delagrange_version": version("delagrange"),
-        "source": f"equations derived from the energies of {PAPER}, Eqs. (1)-(6)",
+        "source": _source(model),
     }
+
+
+def _source(model: ModuleType) -> str:
+    """Where the equations come from."""
+    if is_users(model):
+        return f"equations of the model in {Path(model.__file__).name}"
+    return f"equations derived from the energies of {PAPER}, Eqs. (1)-(6)"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from types import ModuleType
 
@@ -51,7 +51,12 @@ class Numerics:
 
 
 def resolve_numerics(
-    method: str, engine: str, control: str | None, extrema: str, model: ModuleType, force: object = 0.0
+    method: str,
+    engine: str,
+    control: str | None,
+    extrema: str,
+    model: ModuleType,
+    drives: Sequence[object] = (),
 ) -> Numerics:
     """The numerics, with the engine settled where "auto", and its own step control where None.
 
@@ -65,7 +70,7 @@ def resolve_numerics(
     checks.choice("extrema", extrema, EXTREMA)
     if control == "ode45" and method != "RK45":
         raise ValueError(f"step_control 'ode45' belongs to method 'RK45', got method {method!r}")
-    engine = resolve_engine(engine, method, control, extrema, model, force)
+    engine = resolve_engine(engine, method, control, extrema, model, drives)
     able = ENGINES[engine]
     control = able.step_controls[0] if control is None else control
     if not _suits(able, method, control, extrema):
@@ -78,7 +83,7 @@ def resolve_numerics(
 
 
 def resolve_engine(
-    engine: str, method: str, control: str | None, extrema: str, model: ModuleType, force: object
+    engine: str, method: str, control: str | None, extrema: str, model: ModuleType, drives: Sequence[object]
 ) -> str:
     """The name of an engine: as given, or the fastest one for "auto" that can do what is asked for.
 
@@ -91,7 +96,7 @@ def resolve_engine(
         return engine
     if engine == AUTO and not _suits(ENGINES["compiled"], method, control, extrema):
         return "numpy"
-    obstacle = _obstacle(model, force)
+    obstacle = _obstacle(model, drives)
     broken = None if obstacle else _why_not_compiled(model)
     if not (obstacle or broken):
         return "compiled"
@@ -107,12 +112,13 @@ def _suits(able: Engine, method: str, control: str | None, extrema: str) -> bool
     return method in able.methods and control in (None, *able.step_controls) and extrema in able.extrema
 
 
-def _obstacle(model: ModuleType, force: object) -> str | None:
+def _obstacle(model: ModuleType, drives: Sequence[object]) -> str | None:
     """What of the task itself a compiled kernel cannot do."""
     if kernel_name(model) is None:
         return f"no kernel stands beside the module of the model {model.MODEL}"
-    if isinstance(force, Drive) and not is_known(force):
-        return f"force is {force}, which is not made of lines and sines"
+    for drive in drives:
+        if isinstance(drive, Drive) and not is_known(drive):
+            return f"a drive is {drive}, which is not made of lines and sines"
     return None
 
 

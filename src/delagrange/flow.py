@@ -12,11 +12,15 @@ from typing import NamedTuple, Protocol
 import numpy as np
 
 from delagrange import checks
+from delagrange.coordinate_size import straining_change
 from delagrange.drive import Constant, Drive, Sine, Step
+from delagrange.initial import is_stretch
+from delagrange.inputs import CHARGE_DENSITY
 from delagrange.loss import Limits
 from delagrange.problem import Problem, input_name
 
 BIAS, AMPLITUDE, FREQUENCY, PHASE = range(4)  # columns of the numbers of a drive
+_CHARGE_UNIT = CHARGE_DENSITY.unit
 
 
 class Source(NamedTuple):
@@ -162,9 +166,12 @@ def drive_slope_bound(numbers: np.ndarray, number: int, time: float) -> float:
 
 
 def typical_sizes(problem: Problem) -> np.ndarray:
-    """(n_state,): 1 for stretches, for their rates the angular frequency of the fastest small vibration [1/s].
+    """(n_state,), each in its unit: of what size the state variables are, were a stretch to change by one.
 
-    That is about the reference state, under the loads at t = 0.
+    1 for stretches, and the change that strains the membrane by one half or more for a coordinate that is none; for
+    their rates that times the angular frequency of the fastest small vibration [1/s]; for a charge density that is
+    part of the state the one whose attraction would hold such a change [C/m^2]. All that is about the reference
+    state, under the loads at t = 0.
     """
     model = problem.model
     reference = np.asarray(model.reference_state(problem.parameters), dtype=float)
@@ -172,5 +179,27 @@ def typical_sizes(problem: Problem) -> np.ndarray:
     slopes = problem.jacobian(0.0, reference)[count : 2 * count, :count]
     fastest = np.sqrt(np.max(np.abs(np.linalg.eigvals(slopes)), initial=0.0))
     sizes = np.ones(len(model.STATE))
-    sizes[count : 2 * count] = fastest if fastest > 0 else 1.0
+    for place, entry in enumerate(model.STATE[:count]):
+        sizes[place] = 1.0 if is_stretch(entry) else straining_change(problem, reference, place)
+    sizes[count : 2 * count] = sizes[:count] * (fastest if fastest > 0 else 1.0)
+    for place, entry in enumerate(model.STATE):
+        if entry.unit == _CHARGE_UNIT:
+            sizes[place] = _straining_charge(problem, reference, place, fastest, sizes[:count])
     return sizes
+
+
+def _straining_charge(
+    problem: Problem, reference: np.ndarray, place: int, fastest: float, sizes: np.ndarray
+) -> float:
+    """Charge density D [C/m^2] whose acceleration is that of a spring strained by one; 1 if none is.
+
+    sizes: of the coordinates; in them, such a spring accelerates by fastest^2 [1/s^2].
+
+    The energy of a charge grows with its square: an acceleration of k D^2 has the slope 2 k at a D of 1 C/m^2.
+    """
+    count = problem.model.COORDINATE_COUNT
+    charged = np.array(reference)
+    charged[place] = 1.0
+    slope = np.max(np.abs(problem.jacobian(0.0, charged)[count : 2 * count, place]) / sizes, initial=0.0)
+    size = fastest * np.sqrt(2.0 / slope) if 0 < slope < np.inf else 0.0
+    return float(size) if size > 0 else 1.0

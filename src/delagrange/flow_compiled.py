@@ -9,6 +9,8 @@ import numpy as np
 
 from delagrange.flow import Path, Source, Travel, checked_start, drive_numbers
 from delagrange.kernels import VARIATIONAL, kernel_name, load_kernel
+from delagrange.loss import DIVERGED
+from delagrange.problem import Problem
 
 _BUDGET = 20000  # steps of a call, a fifth of a second or less, after which the keyboard is heard
 
@@ -60,7 +62,7 @@ def flow_compiled(
     budget = max(1, _BUDGET // (1 + len(call.sources) // 8))
     while call.go_on(budget):
         pass
-    return _travel(call)
+    return _travel(path, call)
 
 
 def _call(
@@ -112,8 +114,8 @@ def _place(frame: np.ndarray, start: int, values: np.ndarray | list[float]) -> N
     frame[start : start + len(values)] = values
 
 
-def _travel(call: _Call) -> Travel:
-    kernel, frame, size = call.kernel, call.frame, call.states.shape[1]
+def _travel(path: Path, call: _Call) -> Travel:
+    frame, size = call.frame, call.states.shape[1]
     return Travel(
         state=call.states,
         tangent=call.vector[size:-1].reshape(-1, size).T.copy(),
@@ -121,7 +123,20 @@ def _travel(call: _Call) -> Travel:
         divergence=call.divergence,
         maximum=call.extrema[0],
         minimum=call.extrema[1],
-        status=int(frame[kernel.STATUS]),  # counted as in delagrange.loss
-        status_time=float(frame[kernel.STATUS_TIME]),
-        steps=int(frame[kernel.STEPS]),
+        status=_status(path.problem, call),
+        status_time=float(frame[call.kernel.STATUS_TIME]),
+        steps=int(frame[call.kernel.STEPS]),
     )
+
+
+def _status(problem: Problem, call: _Call) -> int:
+    """As in `delagrange.loss`, whose way of counting is the kernel's.
+
+    A kernel stops where an energy ceases to hold. Where it can resolve no step any more, a spring may be about to lock.
+    """
+    frame, kernel = call.frame, call.kernel
+    status = int(frame[kernel.STATUS])
+    if status != DIVERGED:
+        return status
+    with np.errstate(all="ignore"):
+        return int(problem.kind_of_failure(frame[kernel.STATUS_TIME], call.vector[: call.states.shape[1]]))

@@ -121,7 +121,7 @@ def _leg(rates: _Extended, start: np.ndarray, span: tuple[float, float]) -> _Leg
     while solver.status == "running" and status == loss.COMPLETED:
         solver.step()
         if solver.status == "failed":
-            status = loss.DIVERGED
+            status = int(path.problem.kind_of_failure(solver.t, solver.y[:size]))
             break
         steps += 1
         end, status = _kept(path, solver)
@@ -152,17 +152,14 @@ def _kept(path: Path, solver: DOP853) -> tuple[float, int]:
     """Until when the step just made counts [s], and what ends it there if anything does."""
     size, dense = len(path.weights), None
 
-    def principal(time: float, vector: np.ndarray) -> np.ndarray:
-        return path.problem.principal_stretches(time, vector[:size])
-
     def margin(time: float) -> float:
-        return float(loss.margin(principal(time, dense(time)), path.limits))
+        return float(path.problem.margin(time, dense(time)[:size], path.limits))
 
-    if loss.margin(principal(solver.t, solver.y), path.limits) > 0:
+    if path.problem.margin(solver.t, solver.y[:size], path.limits) > 0:
         return solver.t, loss.COMPLETED
     dense = solver.dense_output()
     lost = brentq(margin, solver.t_old, solver.t, xtol=1e-18) if margin(solver.t_old) > 0 else solver.t_old
-    return lost, int(loss.kind_of_loss(principal(lost, dense(lost)), path.limits))
+    return lost, int(path.problem.kind_of_loss(lost, dense(lost)[:size], path.limits))
 
 
 def _reached(solver: DOP853, end: float, vector: np.ndarray, coordinates: int) -> np.ndarray:

@@ -1,16 +1,26 @@
-"""The state at t = 0 of the runs of a sweep, by the names of the state variables."""
+"""The state at t = 0: by the names of the state variables, or the loaded equilibrium."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from types import ModuleType
 
 import numpy as np
 
 from delagrange import checks
+from delagrange.drive import Constant, Drive, Sine, Values
+from delagrange.loss import Limits
+from delagrange.problem import Problem
+from delagrange.sines import ELECTRODES
 from delagrange.units import shown
 
 PREFIX = "initial_"  # of the names of a grid that are values of the state at t = 0
+EQUILIBRIUM = "equilibrium"
+EQUILIBRIUM_MEANING = (
+    "loaded equilibrium: at rest, dashpots relaxed, under the forces at t = 0 (the bias of a sine) and without "
+    "field, charge or current"
+)
 
 
 def initial_units(model: ModuleType) -> dict[str, str]:
@@ -40,7 +50,7 @@ def checked_initial(model: ModuleType, given: Mapping[str, object] | None) -> di
                 f"{model.MODEL} has {_known(model)}"
             )
     return {
-        PREFIX + entry.name: _checked(entry.name, given[entry.name], entry.unit)
+        PREFIX + entry.name: _checked(entry, given[entry.name])
         for entry in model.STATE
         if entry.name in given
     }
@@ -55,9 +65,56 @@ def state_at_start(model: ModuleType, reference: np.ndarray, values: Mapping[str
     return state
 
 
-def _checked(name: str, value: object, unit: str) -> float | np.ndarray:
-    check = checks.positive if unit == "1" else checks.finite  # a stretch, or its rate
-    return check(f"initial_state {name}", value, unit)
+def is_equilibrium(model: ModuleType, given: object) -> bool:
+    """Whether the loaded equilibrium is asked for as the state at t = 0.
+
+    Raises:
+        ValueError: another text.
+    """
+    if isinstance(given, str) and given != EQUILIBRIUM:
+        raise ValueError(
+            f"initial_state must be {EQUILIBRIUM!r} or map names of state variables to values, got {given!r}; "
+            f"{model.MODEL} has {_known(model)}"
+        )
+    return isinstance(given, str)
+
+
+def before_the_field(problem: Problem) -> Problem:
+    """The problem under its forces as they are at t = 0, without field, charge or current.
+
+    A sine of a force counts with its bias; a step at 0 s counts as made.
+    """
+    entries = zip(problem.model.INPUTS, problem.drives)
+    off = [each.name for each in ELECTRODES]
+    drives = (0.0 if entry.name in off else _at_start(drive) for entry, drive in entries)
+    return replace(problem, drives=tuple(Constant(value) for value in drives))
+
+
+def loaded_equilibrium(problem: Problem, limits: Limits) -> np.ndarray:
+    """The state, (n_state,), in which a membrane rests before a field, charge or current is switched on.
+
+    The analysis that finds it stands on the stages below it, this one too, and so is imported when it is asked for.
+
+    Raises:
+        ValueError: there is none under these forces; the message names them.
+    """
+    from delagrange.analysis.rest.rest_state import resting_state
+
+    return resting_state(before_the_field(problem), "relaxed", limits)
+
+
+def _at_start(drive: Drive) -> Values:
+    return drive.bias if isinstance(drive, Sine) else drive.at(0.0)
+
+
+def is_stretch(entry: object) -> bool:
+    """Whether a state variable is a stretch, which is positive; its rate, a charge or an angle need not be."""
+    return entry.unit == "1" and "stretch" in entry.name
+
+
+def _checked(entry: object, value: object) -> float | np.ndarray:
+    check = checks.positive if is_stretch(entry) else checks.finite
+    return check(f"initial_state {entry.name}", value, entry.unit)
 
 
 def _known(model: ModuleType) -> str:

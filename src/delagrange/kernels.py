@@ -15,11 +15,15 @@ from types import ModuleType
 
 import numpy as np
 
+from delagrange.user_files import beside, import_named, is_users
+
 LANES, VARIATIONAL = "lanes", "variational"  # kinds of kernels, and the last word of their modules' names
 
 
 def kernel_name(model: ModuleType, kind: str = LANES) -> str | None:
     """Name of the compiled kernel of a kind that stands beside the module of a model, or None where there is none."""
+    if is_users(model):
+        return beside(model, kind)
     name = f"{model.__name__}_{kind}"
     try:
         return name if name in sys.modules or find_spec(name) is not None else None
@@ -50,7 +54,7 @@ def load_kernel(name: str) -> ModuleType:
     """
     try:
         with _no_collection():
-            kernel = import_module(name)
+            kernel = import_named(name)
             kept = _compile(kernel)
     except Exception as error:
         raise RuntimeError(f"the kernel {name} cannot be compiled here: {error}") from error

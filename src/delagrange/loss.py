@@ -8,16 +8,20 @@ import numpy as np
 
 from delagrange import checks
 
-STATUS = ("completed", "collapsed", "diverged", "interrupted")
-COMPLETED, COLLAPSED, DIVERGED, INTERRUPTED = range(4)
+STATUS = ("completed", "collapsed", "diverged", "interrupted", "locked")
+COMPLETED, COLLAPSED, DIVERGED, INTERRUPTED, LOCKED = range(5)  # compiled kernels count the same way
 STATUS_MEANING = (
     "completed: the whole duration was integrated; "
     "collapsed: a principal stretch fell below the smallest allowed (pulled in); "
     "diverged: an in-plane stretch passed the largest allowed, or the solution ceased to be finite or "
     "to be resolved by the step; "
-    "interrupted: not computed"
+    "interrupted: not computed; "
+    "locked: the strain energy ceased to hold, or the solution to be resolved at that limit (a spring locks)"
 )
 
+AT_THE_LOCK = (
+    1e-6  # of the validity at rest: what is left where a spring counts as locked once no step is resolved
+)
 SMALLEST_STEP = 1e-16  # of the duration; near t = 0 double precision would let a hopeless run crawl for ever
 
 
@@ -43,21 +47,25 @@ class Limits:
             )
 
 
-def margin(principal: np.ndarray, limits: Limits) -> np.ndarray:
+def margin(principal: np.ndarray, limits: Limits, validity: np.ndarray | None = None) -> np.ndarray:
     """Distance [1] from loss: positive while all is well, negative once lost, continuous between.
 
-    principal: (3, ...) [1] -> (...)
+    principal: (3, ...) [1] -> (...); validity: (...), positive where the energies hold; None where they always do
     """
-    return np.minimum(_above_smallest(principal, limits), _below_largest(principal, limits))
+    kept = np.minimum(_above_smallest(principal, limits), _below_largest(principal, limits))
+    return kept if validity is None else np.minimum(kept, validity)
 
 
-def kind_of_loss(principal: np.ndarray, limits: Limits) -> np.ndarray:
-    """DIVERGED where the upper limit is the nearer one, else COLLAPSED.
+def kind_of_loss(principal: np.ndarray, limits: Limits, validity: np.ndarray | None = None) -> np.ndarray:
+    """LOCKED where the energies hold least, DIVERGED where the upper limit is the nearer one, else COLLAPSED.
 
-    principal: (3, ...) [1] -> (...) of int
+    principal: (3, ...) [1] -> (...) of int; validity: as for `margin`
     """
-    upper_is_nearer = _below_largest(principal, limits) < _above_smallest(principal, limits)
-    return np.where(upper_is_nearer, DIVERGED, COLLAPSED)
+    above, below = _above_smallest(principal, limits), _below_largest(principal, limits)
+    kind = np.where(below < above, DIVERGED, COLLAPSED)
+    if validity is None:
+        return kind
+    return np.where(~(validity > np.minimum(above, below)), LOCKED, kind)
 
 
 def _above_smallest(principal: np.ndarray, limits: Limits) -> np.ndarray:

@@ -8,11 +8,15 @@ that someone copied or wrote by hand runs just as well, as far as it offers what
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import os
+from collections.abc import Iterable, Sequence
 from importlib import import_module
+from pathlib import Path
 from types import ModuleType
 
-from delagrange import checks
+from delagrange import checks, user_files
+from delagrange.kernels import LANES, VARIATIONAL
+from delagrange.model_shapes import fault
 from delagrange.units import shown
 
 _MODULES = {
@@ -34,10 +38,73 @@ def model_names() -> tuple[str, ...]:
     return tuple(_MODULES.values())
 
 
+def load(path: str | os.PathLike[str]) -> ModuleType:
+    """The model in a file of yours, or in a folder that holds exactly one.
+
+    The file is Python, as `delagrange derive` writes it or by hand: it is run as by any import, so load only what
+    you trust. Its compiled kernels `<name>_lanes.py` and `<name>_variational.py` are found beside it, and what is
+    compiled is kept there or, where nothing can be written, in Numba's folder for the user. A file that has
+    changed is loaded anew.
+
+    Raises:
+        ValueError: no such file or folder, no model or more than one in the folder, a file that is not a model or
+            does not fit itself, or a kernel beside it that is of other equations.
+    """
+    given = Path(path)
+    file = _only_model(given) if given.is_dir() else given
+    if not file.is_file():
+        raise ValueError(f"model {file}: no such file or folder")
+    if file.suffix != ".py" or "." in file.stem:
+        raise ValueError(f"model {file} must be a Python file whose name has no dot but that of .py")
+    _refuse_without(file, user_files.missing_names(file, _NEEDED))  # and run nothing of it
+    module = user_files.import_model(file, (LANES, VARIATIONAL))
+    _refuse_without(file, _missing(module))
+    if wrong := fault(module):
+        raise ValueError(f"{file} is not a model: {wrong}")
+    return module
+
+
+def _refuse_without(file: Path, missing: Sequence[str]) -> None:
+    if missing:
+        raise ValueError(f"{file} is not a model: it lacks {', '.join(missing)}{_kernel_hint(file)}")
+
+
+def _only_model(folder: Path) -> Path:
+    """The one file in a folder that defines what a model has; none of them is run."""
+    files = sorted(folder.glob("*.py"))
+    found = [file for file in files if not user_files.missing_names(file, _NEEDED)]
+    if len(found) == 1:
+        return found[0]
+    held = f"{len(found)} models, {', '.join(file.name for file in found)}" if found else "no model"
+    raise ValueError(f"folder {folder} holds {held}; {'give one of the files' if found else 'needed is one'}")
+
+
+def _kernel_hint(file: Path) -> str:
+    """For one who gives a kernel, the file that is the model."""
+    for kind in (LANES, VARIATIONAL):
+        if file.stem.endswith(f"_{kind}"):
+            return (
+                f"; the model of this kernel is {file.with_name(file.stem.removesuffix(f'_{kind}') + '.py')}"
+            )
+    return ""
+
+
+def is_path(model: object) -> bool:
+    """Whether a model is given by its place on disk: a path, or text that looks like one."""
+    if isinstance(model, os.PathLike):
+        return True
+    looks = isinstance(model, str) and (model.endswith(".py") or "/" in model or os.sep in model)
+    return looks or (isinstance(model, str) and model != "" and Path(model).is_dir())
+
+
 def load_model(
-    model: str | ModuleType, formulation: str | None = None, lateral_dashpot: str | None = None
+    model: str | os.PathLike[str] | ModuleType,
+    formulation: str | None = None,
+    lateral_dashpot: str | None = None,
 ) -> ModuleType:
     """The module of a model, by its load case or its full name; hyphens count as underscores.
+
+    A path (or text with a slash or ending in .py, or the name of a folder) is loaded as by `load`.
 
     `formulation` ("consistent", the default, or "as_printed") and `lateral_dashpot` ("held", the default,
     or "free") choose among the models of pure shear. With a full name they may be left out or say what that
@@ -56,9 +123,11 @@ def load_model(
     choices = [key for key in _MODULES if key[0] == name]
     if choices:
         return _import(_pick(name, choices, formulation, lateral_dashpot))
+    if is_path(model):
+        return _confirmed(load(model), formulation, lateral_dashpot)
     known = tuple(dict.fromkeys([*(key[0] for key in _MODULES), *model_names()]))
     near = checks.did_you_mean(name, known)
-    raise ValueError(f"unknown model {shown(model)}{near}; known are {', '.join(known)}")
+    raise ValueError(f"unknown model {shown(model)}{near}; known are {', '.join(known)}, and paths of files")
 
 
 def _pick(name: str, choices: list[tuple], formulation: str | None, lateral_dashpot: str | None) -> str:
@@ -99,7 +168,10 @@ def _import(name: str) -> ModuleType:
 
 
 def _checked(module: ModuleType) -> ModuleType:
-    missing = [name for name in _NEEDED if not hasattr(module, name)]
-    if missing:
+    if missing := _missing(module):
         raise ValueError(f"module {module.__name__!r} is not a model: it lacks {', '.join(missing)}")
     return module
+
+
+def _missing(module: ModuleType) -> list[str]:
+    return [name for name in _NEEDED if not hasattr(module, name)]

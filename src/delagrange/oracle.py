@@ -95,7 +95,7 @@ def _integrals(solution, count: int) -> np.ndarray:
 
 def _solve(problem: Problem, state: np.ndarray, start: float, stop: float, settings: Settings, dense: bool):
     def lost(time: float, state: np.ndarray) -> float:
-        return float(loss.margin(problem.principal_stretches(time, state), settings.limits))
+        return float(problem.margin(time, state, settings.limits))
 
     lost.terminal = True
     count = problem.model.COORDINATE_COUNT
@@ -115,13 +115,13 @@ def _solve(problem: Problem, state: np.ndarray, start: float, stop: float, setti
 
 
 def _status(problem: Problem, time: float, state: np.ndarray, settings: Settings) -> int:
-    principal = problem.principal_stretches(time, state)
-    kept = loss.margin(principal, settings.limits) > 0
-    return loss.COMPLETED if kept else int(loss.kind_of_loss(principal, settings.limits))
+    kept = problem.margin(time, state, settings.limits) > 0
+    return loss.COMPLETED if kept else int(problem.kind_of_loss(time, state, settings.limits))
 
 
 def _status_after(problem: Problem, solution, settings: Settings) -> int:
     if solution.status == 1:
-        principal = problem.principal_stretches(solution.t[-1], solution.y[:, -1])
-        return int(loss.kind_of_loss(principal, settings.limits))
-    return loss.COMPLETED if solution.success else loss.DIVERGED
+        return int(problem.kind_of_loss(solution.t[-1], solution.y[:, -1], settings.limits))
+    if solution.success:
+        return loss.COMPLETED
+    return int(problem.kind_of_failure(solution.t[-1], solution.y[:, -1]))

@@ -5,10 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
 
-import numpy as np
-
 from delagrange import checks
-from delagrange.units import with_unit
+from delagrange.material import RELAXATION_TIME, Material
 
 
 def _material(symbol: str, unit: str, meaning: str):
@@ -61,58 +59,20 @@ class Parameters:
             ValueError: an unknown name, a value that is not positive and finite, or both
                 `viscosity` and `relaxation_time` given.
         """
-        source = changes.pop("source", None) or _changed_source(self.source, changes)
-        return Parameters(**material_values(self, changes), source=source)
+        source = changes.pop("source", None) or self.material.changed_source(changes)
+        return Parameters(**self.material.changed(changes), source=source)
+
+    @property
+    def material(self) -> Material:
+        """The values with their units, as any model has them."""
+        values = {name: getattr(self, name) for name in MATERIAL_UNITS}
+        return Material(values, CHANGEABLE_UNITS, frozenset(CHANGEABLE_UNITS), self.source)
 
 
 MATERIAL_UNITS: Mapping[str, str] = {
     entry.name: entry.metadata["unit"] for entry in fields(Parameters) if "unit" in entry.metadata
 }
-CHANGEABLE_UNITS: Mapping[str, str] = {**MATERIAL_UNITS, "relaxation_time": "s"}
-
-
-def material_values(
-    parameters: Parameters, changes: Mapping[str, float | np.ndarray]
-) -> dict[str, float | np.ndarray]:
-    """The material values by name with `changes` applied; arrays stay arrays and broadcast together.
-
-    Raises:
-        ValueError: as `Parameters.replace`.
-    """
-    check_material_names(changes)
-    values = {name: getattr(parameters, name) for name in MATERIAL_UNITS}
-    changed = {name: checks.positive(name, value, CHANGEABLE_UNITS[name]) for name, value in changes.items()}
-    relaxation_time = changed.pop("relaxation_time", None)
-    values.update(changed)
-    if relaxation_time is not None:
-        values["viscosity"] = relaxation_time * values["shear_modulus_beta"]
-    return values
-
-
-def check_material_names(changes: Mapping[str, object]) -> None:
-    """Refuse a name that no membrane has, and a viscosity that is given twice.
-
-    Raises:
-        ValueError: naming the nearest known name.
-    """
-    for name in changes:
-        if name not in CHANGEABLE_UNITS:
-            known = ", ".join(CHANGEABLE_UNITS)
-            near = checks.did_you_mean(name, CHANGEABLE_UNITS)
-            raise ValueError(f"unknown parameter {name!r}{near}; known are {known}")
-    if "viscosity" in changes and "relaxation_time" in changes:
-        raise ValueError(
-            "viscosity [Pa s] and relaxation_time [s] both given; give one, since relaxation_time = "
-            "viscosity / shear_modulus_beta"
-        )
-
-
-def _changed_source(source: str, changes: Mapping[str, float]) -> str:
-    known = {name: value for name, value in changes.items() if name in CHANGEABLE_UNITS}
-    if not known:
-        return source
-    text = ", ".join(f"{name} = {with_unit(value, CHANGEABLE_UNITS[name])}" for name, value in known.items())
-    return f"{source}; changed: {text}"
+CHANGEABLE_UNITS: Mapping[str, str] = {**MATERIAL_UNITS, RELAXATION_TIME: "s"}
 
 
 SHENG_2015 = Parameters(

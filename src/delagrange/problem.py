@@ -9,12 +9,15 @@ from types import ModuleType
 
 import numpy as np
 
-from delagrange import checks
-from delagrange.drive import Constant, Drive, Values, as_drive
-from delagrange.parameters import MATERIAL_UNITS, Parameters, material_values
+from delagrange import checks, loss
+from delagrange.drive import Drive, Values
+from delagrange.inputs import Inputs, drives_of, input_name
+from delagrange.loss import Limits
+from delagrange.model_material import HELD_STRETCH, default_held_stretch, material_of, value_of
+from delagrange.parameters import Parameters
 from delagrange.units import shown, with_unit
 
-_ARGUMENTS = {"force": "force", "nominal_electric_field": "field"}  # input of a model -> what a user calls it
+__all__ = ["Problem", "input_name", "make_problem"]
 
 
 @dataclass(frozen=True)
@@ -44,6 +47,33 @@ class Problem:
         """λ_1, λ_2, λ_3, (3, ...) [1]."""
         return self.model.principal_stretches(state, self.inputs(time), self.parameters)
 
+    def validity(self, time: Values, state: np.ndarray) -> Values | None:
+        """Positive where the energies of the model hold, (...); None for a model that sets no limit."""
+        if not hasattr(self.model, "validity"):
+            return None
+        return self.model.validity(state, self.inputs(time), self.parameters)
+
+    def margin(self, time: Values, state: np.ndarray, limits: Limits) -> np.ndarray:
+        """Distance from loss, (...): positive while all is well."""
+        return loss.margin(self.principal_stretches(time, state), limits, self.validity(time, state))
+
+    def kind_of_loss(self, time: Values, state: np.ndarray, limits: Limits) -> np.ndarray:
+        """Place in `delagrange.loss.STATUS` of what is lost there, (...) of int."""
+        return loss.kind_of_loss(self.principal_stretches(time, state), limits, self.validity(time, state))
+
+    def kind_of_failure(self, time: Values, state: np.ndarray) -> np.ndarray:
+        """Place in `delagrange.loss.STATUS` of a run that no step resolves any more, (...) of int.
+
+        LOCKED where next to nothing is left to where the energies hold: a spring that locks stops the membrane within
+        less than double precision can tell; else DIVERGED.
+        """
+        validity = self.validity(time, state)
+        if validity is None:
+            return np.full(np.shape(state)[1:], loss.DIVERGED)
+        reference = np.asarray(self.model.reference_state(self.parameters), dtype=float)
+        at_rest = self.model.validity(reference, self.inputs(0.0), self.parameters)
+        return np.where(validity < loss.AT_THE_LOCK * at_rest, loss.LOCKED, loss.DIVERGED)
+
     def breakpoints(self, start: float, stop: float) -> tuple[float, ...]:
         """Times [s] strictly between `start` and `stop` at which a drive is not smooth, increasing."""
         return tuple(sorted({time for drive in self.drives for time in drive.breakpoints(start, stop)}))
@@ -65,32 +95,27 @@ def make_problem(
     held_stretch: Values | None,
     force: Drive | Values,
     field: Drive | Values,
+    inputs: Inputs | None = None,
 ) -> Problem:
     """Put a problem together, checking that the model has what is given and is given what it has.
+
+    Args:
+        parameters, changes: of the material, see `delagrange.model_material.material_of`.
+        inputs: drives or values of inputs by name, those of `model.INPUTS`; one that is not given is zero.
 
     Raises:
         ValueError: a bad value, an unknown parameter, a force, field or held stretch that the model
             has no place for, a held stretch missing, or values with which double precision cannot
             compute the equations.
     """
-    checks.instance("parameters", parameters, Parameters)
-    values = material_values(parameters, changes) | _held(model, held_stretch)
-    drives = {
-        "force": as_drive("force", force, "N"),
-        "nominal_electric_field": as_drive("field", field, "V/m"),
-    }
+    values = material_of(model, parameters).changed(changes) | _held(model, held_stretch)
     problem = Problem(
         model,
-        tuple(_drive_of(model, variable.name, drives) for variable in _all_used(model, drives)),
-        tuple(_parameter_of(model, variable.name, values) for variable in model.PARAMETERS),
+        drives_of(model, force, field, inputs),
+        tuple(value_of(model, variable.name, values) for variable in model.PARAMETERS),
     )
     _check_computable(problem)
     return problem
-
-
-def input_name(name: str) -> str:
-    """What a user calls the model's input `name`: `nominal_electric_field` is given as `field`."""
-    return _ARGUMENTS.get(name, name)
 
 
 def _check_computable(problem: Problem) -> None:
@@ -132,38 +157,12 @@ def _most_extreme(problem: Problem) -> str:
 
 
 def _held(model: ModuleType, held_stretch: Values | None) -> dict[str, Values]:
-    needed = any(variable.name == "held_stretch" for variable in model.PARAMETERS)
+    needed = any(variable.name == HELD_STRETCH for variable in model.PARAMETERS)
+    held_stretch = default_held_stretch(model) if needed and held_stretch is None else held_stretch
     if needed and held_stretch is None:
         raise ValueError(f"held_stretch [1] is missing: {model.MODEL} needs it, positive and finite")
     if not needed and held_stretch is not None:
         raise ValueError(
             f"held_stretch {shown(held_stretch)} [1] given, but {model.MODEL} holds no stretch; leave it out"
         )
-    return {"held_stretch": checks.positive("held_stretch", held_stretch, "1")} if needed else {}
-
-
-def _all_used(model: ModuleType, drives: Mapping[str, Drive]) -> tuple:
-    """The model's inputs, after refusing a drive (other than zero) for which it has none."""
-    known = [variable.name for variable in model.INPUTS]
-    for name, drive in drives.items():
-        if name not in known and not (isinstance(drive, Constant) and np.all(drive.value == 0)):
-            raise ValueError(
-                f"{input_name(name)} given as {drive}, but {model.MODEL} has no such input; "
-                f"it has {', '.join(map(input_name, known))}"
-            )
-    return tuple(model.INPUTS)
-
-
-def _drive_of(model: ModuleType, name: str, drives: Mapping[str, Drive]) -> Drive:
-    if name not in drives:
-        raise ValueError(
-            f"{model.MODEL} has the input {name!r}, which cannot be driven; known are {', '.join(drives)}"
-        )
-    return drives[name]
-
-
-def _parameter_of(model: ModuleType, name: str, values: Mapping[str, Values]) -> Values:
-    if name not in values:
-        known = ", ".join([*MATERIAL_UNITS, "held_stretch"])
-        raise ValueError(f"{model.MODEL} has the parameter {name!r}, which is not known; known are {known}")
-    return values[name]
+    return {HELD_STRETCH: checks.positive(HELD_STRETCH, held_stretch, "1")} if needed else {}

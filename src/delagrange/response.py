@@ -22,14 +22,17 @@ from delagrange.dataset import (
 )
 from delagrange.drive import Drive
 from delagrange.engines import resolve_numerics
-from delagrange.initial import PREFIX
+from delagrange.initial import EQUILIBRIUM_MEANING, PREFIX, is_equilibrium
+from delagrange.inputs import Inputs
 from delagrange.lanes import Outcome
 from delagrange.loss import Limits
 from delagrange.measures import Measures
 from delagrange.models import load_model
-from delagrange.parameters import CHANGEABLE_UNITS, SHENG_2015, Parameters
+from delagrange.parameters import SHENG_2015, Parameters
 from delagrange.progress import working
+from delagrange.sines import ELECTRODES, driven_sine, phase_name, sine_long_names, sine_text
 from delagrange.sweep import Sweep, make_settings, make_sweep, run_sweep
+from delagrange.user_files import is_users
 
 
 def frequency_response(
@@ -37,15 +40,22 @@ def frequency_response(
     *,
     frequency: np.ndarray | float,
     duration: float,
-    field_amplitude: np.ndarray | float,
+    field_amplitude: np.ndarray | float | None = None,
     field_bias: np.ndarray | float = 0.0,
     field_phase: np.ndarray | float = 0.0,
+    charge_amplitude: np.ndarray | float | None = None,
+    charge_bias: np.ndarray | float = 0.0,
+    charge_phase: np.ndarray | float = 0.0,
+    current_amplitude: np.ndarray | float | None = None,
+    current_bias: np.ndarray | float = 0.0,
+    current_phase: np.ndarray | float = 0.0,
     force: Drive | np.ndarray | float = 0.0,
+    inputs: Inputs | None = None,
     held_stretch: np.ndarray | float | None = None,
     formulation: str | None = None,
     lateral_dashpot: str | None = None,
     parameters: Parameters = SHENG_2015,
-    initial_state: Mapping[str, np.ndarray | float] | None = None,
+    initial_state: Mapping[str, np.ndarray | float] | str | None = None,
     window: tuple[float, float] | None = None,
     averages: bool = False,
     final_state: bool = False,
@@ -65,16 +75,25 @@ def frequency_response(
 ) -> xr.Dataset:
     """Amplitude of the motion under E = bias + amplitude sin(2 pi f t + phase), at each point of a grid.
 
-    `frequency` [Hz] is a strictly increasing array. `force` [N], `field_amplitude` and `field_bias` [V/m],
-    `field_phase` [rad], `held_stretch` [1], any material parameter (`relaxation_time` [s] included) and the
-    values of `initial_state` may be one-dimensional arrays: each gives a dimension of its name, in the order
-    force, field_amplitude, field_bias, field_phase, held_stretch, material, initial_<state variable>,
-    frequency. Single values give scalar coordinates (frequency always a dimension).
+    `frequency` [Hz] is a strictly increasing array. `force` [N], values of `inputs`, `field_amplitude` and
+    `field_bias` [V/m], `field_phase` [rad], `held_stretch` [1], any material parameter (`relaxation_time` [s]
+    included) and the values of `initial_state` may be one-dimensional arrays: each gives a dimension of its name,
+    in the order force, other inputs, field_amplitude, field_bias, field_phase, held_stretch, material,
+    initial_<state variable>, frequency. Single values give scalar coordinates (frequency always a dimension).
 
     Args:
         duration: of each run [s].
+        field_amplitude: must be given where the model has a field.
+        charge_amplitude, charge_bias, charge_phase: [C/m^2] and [rad] of the same sine of the nominal charge density
+            instead, where that drives the model; and
+        current_amplitude, current_bias, current_phase: [A/m^2] and [rad] of the nominal current density where
+            that does. They give axes in the place of those of the field, and `frequency` is theirs.
+        inputs: of any input but the one of the sine, by its name: numbers, arrays or drives, as {"force_2": 0.3}.
+            Where no amplitude is given, of a charge or current too, and `frequency` then drives nothing.
         initial_state: values of state variables at t = 0 by name, in the units of `model.STATE`; those left
-            out, or all, are as in the reference state, at rest.
+            out, or all, are as in the reference state, at rest. Or "equilibrium": every run starts at rest where its
+            membrane has relaxed under its forces as they are at t = 0 (the bias of a sine, where a ramp begins)
+            without field, charge or current, which are then switched on; `initial_<state variable>` in the result.
         window: start and end [s] of the time in which extrema and averages are taken; the whole duration if
             left out.
         averages: give the time average and the root mean square over the window too.
@@ -108,27 +127,32 @@ def frequency_response(
         keyboard, it warns and returns what is done; the other points have the status "interrupted".
 
     Raises:
-        ValueError: something given makes no sense, or the result would take more than 8 GiB; the message
-            names it, its value, its unit and what is allowed.
+        ValueError: something given makes no sense, the result would take more than 8 GiB, or a run has no
+            equilibrium to start at; the message names it, its value, its unit and what is allowed.
     """
     module = load_model(model, formulation, lateral_dashpot)
     measures = Measures(averages, final_state, section_points, section_phase, sample_interval)
     with working(progress, f"preparing {module.MODEL}; its first use on a machine takes seconds to compile"):
-        numerics = resolve_numerics(method, engine, step_control, extrema, module, force)
+        numerics = resolve_numerics(method, engine, step_control, extrema, module, [force, *_given(inputs)])
     settings = make_settings(duration, window, rtol, atol, numerics, limits, averages, threads)
-    values = {
-        "force": force,
-        "field_amplitude": field_amplitude,
-        "field_bias": field_bias,
-        "field_phase": field_phase,
-        "held_stretch": held_stretch,
-        **material,
-        "frequency": frequency,
-    }
-    sweep = make_sweep(module, parameters, values, settings, numerics.engine, measures, initial_state)
+    sines = (
+        (field_amplitude, field_bias, field_phase),
+        (charge_amplitude, charge_bias, charge_phase),
+        (current_amplitude, current_bias, current_phase),
+    )
+    electrical, sine = driven_sine(module, dict(zip(ELECTRODES, sines)), inputs)
+    values = {"force": force, **sine, "held_stretch": held_stretch, **material, "frequency": frequency}
+    with working(progress and is_equilibrium(module, initial_state), "finding where the runs start, at rest"):
+        sweep = make_sweep(
+            module, parameters, values, settings, numerics.engine, measures, initial_state, inputs, electrical
+        )
     outcome = run_sweep(sweep, progress)
     tolerances = {"rtol": settings.control.rtol, "atol": settings.control.atol}
     return _dataset(sweep, outcome, asdict(numerics) | tolerances)
+
+
+def _given(inputs: Inputs | None) -> list[object]:
+    return list(inputs.values()) if isinstance(inputs, Mapping) else []
 
 
 def _dataset(sweep: Sweep, outcome: Outcome, numerics: dict[str, object]) -> xr.Dataset:
@@ -163,31 +187,28 @@ def _measured_variables(sweep: Sweep, outcome: Outcome, measure: dict[str, objec
 
 
 def _section_time(sweep: Sweep) -> tuple:
-    """When the sections are taken [s]; it depends on the field's frequency and phase alone."""
+    """When the sections are taken [s]; it depends on the sine's frequency and phase alone."""
     lengths, sampling = sweep.field_sampling()
     times = sampling.times().T.reshape(*lengths.values(), sampling.count)
     phase = sweep.measures.section_phase
-    definition = (
-        f"the last times in the duration at which 2 pi f t + field_phase is {phase:g} rad modulo 2 pi"
-    )
+    angle = f"2 pi f t + {phase_name(sweep.electrical)}"
+    definition = f"the last times in the duration at which {angle} is {phase:g} rad modulo 2 pi"
     more = {"definition": definition, "section_phase": phase, "section_phase_units": "rad"}
     return variable((*lengths, "period"), times, "s", "time of the section", "t", **more)
 
 
 _LONG_NAMES = {
     "force": "applied force",
-    "field_amplitude": "amplitude of the nominal electric field",
-    "field_bias": "bias of the nominal electric field",
-    "field_phase": "phase of the electric field at t = 0",
     "held_stretch": "stretch at which axis 2 is held",
-    "frequency": "frequency of the electric field",
 }
 
 
 def _coordinates(sweep: Sweep) -> dict[str, tuple]:
     grid = sweep.grid
     starts = {PREFIX + entry.name: f"{entry.meaning} at t = 0" for entry in sweep.model.STATE}
-    long_names = _LONG_NAMES | starts
+    meanings = {entry.name: entry.meaning for entry in (*sweep.model.INPUTS, *sweep.model.PARAMETERS)}
+    own = {name: meaning for name, meaning in meanings.items() if is_users(sweep.model)}
+    long_names = own | _LONG_NAMES | sine_long_names(sweep.electrical) | starts
 
     def coordinate(dimensions: tuple[str, ...], name: str, values: object) -> tuple:
         long_name = long_names.get(name, name.replace("_", " "))
@@ -195,26 +216,41 @@ def _coordinates(sweep: Sweep) -> dict[str, tuple]:
 
     coordinates = {name: coordinate((name,), name, values) for name, values in grid.axes.items()}
     coordinates |= {name: coordinate((), name, value) for name, value in grid.single.items()}
+    coordinates |= _equilibrium_coordinates(sweep, long_names)
     if sweep.measures.sample_interval is not None:
         times = sweep.sampling(slice(0, 1)).times()[:, 0]
         coordinates["time"] = variable("time", times, "s", "time", "t")
     return coordinates
 
 
+def _equilibrium_coordinates(sweep: Sweep, long_names: Mapping[str, str]) -> dict[str, tuple]:
+    """The loaded equilibria at which the runs start, over the axes on which they depend."""
+    if sweep.equilibria is None:
+        return {}
+    shape = sweep.equilibria.shape[1:]
+    over = tuple(name for name, length in zip(sweep.grid.axes, shape) if length > 1)
+    lengths = tuple(length for length in shape if length > 1)
+    names = [PREFIX + entry.name for entry in sweep.model.STATE]
+    return {
+        name: variable(over, values.reshape(lengths), sweep.grid.units[name], long_names[name])
+        for name, values in zip(names, sweep.equilibria)
+    }
+
+
 def _attributes(sweep: Sweep) -> dict[str, object]:
     """What all runs have in common; what varies over the grid is said by its coordinates."""
-    single = {name: value for name, value in sweep.grid.single.items() if name in CHANGEABLE_UNITS}
-    parameters = sweep.parameters.replace(**single)
-    common = run_attributes(sweep.problem(slice(0, 1)), parameters, sweep.settings.limits)
+    material = sweep.material
+    single = {name: value for name, value in sweep.grid.single.items() if name in material.units}
+    common = run_attributes(sweep.problem(slice(0, 1)), material.replace(**single), sweep.settings.limits)
     for name in sweep.grid.axes:
         common.pop(name, None)
         common.pop(f"{name}_units", None)
-    common["nominal_electric_field_drive"] = (
-        "field_bias + field_amplitude * sin(2 pi frequency t + field_phase)"
-    )
-    if sweep.force_drive is None:
-        common["force_drive"] = "Constant(force)"
-    return common
+    for entry in sweep.model.INPUTS:
+        if entry.name == sweep.electrical.name:
+            common[f"{entry.name}_drive"] = sine_text(sweep.electrical)
+        elif entry.name not in sweep.drives:
+            common[f"{entry.name}_drive"] = f"Constant({entry.name})"
+    return common if sweep.equilibria is None else common | {"initial_state": EQUILIBRIUM_MEANING}
 
 
 def peaks(response: xr.Dataset) -> xr.Dataset:

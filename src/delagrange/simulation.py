@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from types import ModuleType
 
 import numpy as np
 import xarray as xr
 
 from delagrange import checks, loss
+from delagrange.dashpots import starting_state
 from delagrange.dataset import run_attributes, status_time_variable, status_variable, variable
 from delagrange.drive import Drive
+from delagrange.electrodes import electrode_variables, powers_of
+from delagrange.initial import EQUILIBRIUM_MEANING, is_equilibrium, is_stretch
+from delagrange.inputs import Inputs
 from delagrange.loss import Limits
+from delagrange.model_material import material_of
 from delagrange.models import check_offers, load_model
 from delagrange.parameters import SHENG_2015, Parameters
 from delagrange.problem import Problem, input_name, make_problem
@@ -29,13 +35,14 @@ def simulate(
     duration: float,
     force: Drive | float = 0.0,
     field: Drive | float = 0.0,
+    inputs: Inputs | None = None,
     held_stretch: float | None = None,
     formulation: str | None = None,
     lateral_dashpot: str | None = None,
     parameters: Parameters = SHENG_2015,
     time: np.ndarray | None = None,
     samples: int | None = None,
-    initial_state: np.ndarray | None = None,
+    initial_state: Mapping[str, float] | str | np.ndarray | None = None,
     method: str = "DOP853",
     rtol: float = 1e-9,
     atol: float = 1e-12,
@@ -47,32 +54,41 @@ def simulate(
     """Integrate one run from t = 0 over `duration` [s], 1e-9 s to 1e6 s.
 
     Args:
-        model: name of a load case or of a generated module, or such a module itself.
+        model: name of a load case or of a generated module, such a module itself, or the path of a model's file.
         force: drive of the applied force, or a number [N]; a number is a step at t = 0.
         field: drive of the nominal electric field, or a number [V/m].
+        inputs: drives or numbers of any input of the model by its name, as {"force_2": 0.3}, in its own unit.
         held_stretch: stretch [1] at which pure shear holds axis 2; needed there, refused elsewhere.
         formulation, lateral_dashpot: choice among the models of pure shear, see `load_model`.
-        parameters: the membrane; `**material` replaces single values of it, `relaxation_time` [s] included.
+        parameters: the membrane; `**material` replaces single values of it, `relaxation_time` [s] included. A
+            model with parameters of its own has its `DEFAULTS`, see `delagrange.model_material.material_of`.
         time: times [s] of the output, increasing, from 0 to `duration`; or
         samples: how many, evenly spaced, 2 to 10000000. Left out, at least 2001, at most 25 us apart in
             runs of up to 25 s; in longer ones 1000001, farther apart.
-        initial_state: (n_state,) in the order of `model.STATE`; left out, at rest in the reference state.
+        initial_state: values of state variables at t = 0 by name, in the units of `model.STATE`; those left out, or
+            all, are as in the reference state, at rest. Or "equilibrium": at rest where the membrane has relaxed
+            under its forces as they are at t = 0 (the bias of a sine, where a ramp begins) without field, charge or
+            current, which are then switched on. Or an array (n_state,) in the order of `model.STATE`.
         method: "DOP853", "RK45", or with the Jacobian, for short relaxation times, "Radau", "BDF", "LSODA";
             "auto" takes Radau where the Jacobian at the start has a decay much faster than its vibration,
             else DOP853.
-        rtol, atol: tolerances of the local error of every state variable, in its own unit.
+        rtol, atol: tolerances of the local error of every state variable, in its own unit. An implicit method follows
+            a slow drive of 100 s in steps far shorter than it needs, for minutes, where `atol` is far below `rtol`
+            times what is of interest: with rtol 1e-6 give 1e-9 or so.
         energies: give energies and powers as well.
         limits: stretches beyond which the solution counts as lost.
         progress: show a progress bar on standard error.
 
     Returns:
         Dataset over `time`: the state, the inputs, `thickness_stretch`, reactions where the model has them,
-        energies on request; and `status` ("completed", "collapsed", "diverged") with `status_time`. After
-        the loss of the solution the variables of the state are NaN.
+        what its electrodes answer with where it says that (`nominal_charge_density` to a field,
+        `nominal_electric_field` to a charge or a current), energies and powers on request; and `status`
+        ("completed", "collapsed", "diverged", "locked") with `status_time`. After the loss of the solution the
+        variables of the state are NaN.
 
     Raises:
-        ValueError: something given makes no sense; the message names it, its value, its unit and what is
-            allowed.
+        ValueError: something given makes no sense, or there is no equilibrium to start at; the message names it,
+            its value, its unit and what is allowed.
     """
     module = load_model(model, formulation, lateral_dashpot)
     duration = check_duration(duration)
@@ -80,15 +96,18 @@ def simulate(
     checks.choice("method", method, METHODS)
     checks.instance("limits", limits, Limits)
     _check_offers(module, method, energies)
-    problem = make_problem(module, parameters, material, held_stretch, force, field)
+    problem = make_problem(module, parameters, material, held_stretch, force, field, inputs)
     _check_single(problem)
     for entry, drive in zip(module.INPUTS, problem.drives):
         drive.check_window(input_name(entry.name), 0.0, duration)
     times = output_times(time, samples, duration)
-    start = initial_values(problem, initial_state)
+    start = initial_values(problem, initial_state, limits)
     trajectory = integrate(problem, start, times, duration, method, rtol, atol, limits, progress)
     numerics = {"method": trajectory.method, "rtol": rtol, "atol": atol, "duration": duration}
-    attributes = run_attributes(problem, parameters.replace(**material), limits) | numerics
+    described = material_of(module, parameters).replace(**material)
+    attributes = run_attributes(problem, described, limits) | numerics
+    if is_equilibrium(module, initial_state):
+        attributes["initial_state"] = EQUILIBRIUM_MEANING
     return _dataset(problem, times, trajectory, energies, attributes)
 
 
@@ -130,15 +149,17 @@ def output_times(time: np.ndarray | None, samples: int | None, duration: float) 
     return times
 
 
-def initial_values(problem: Problem, given: np.ndarray | None) -> np.ndarray:
-    """The state at t = 0, (n_state,): as given, or the reference state.
+def initial_values(
+    problem: Problem, given: Mapping[str, float] | str | np.ndarray | None, limits: Limits
+) -> np.ndarray:
+    """The state at t = 0, (n_state,): as given by names or as an array, the loaded equilibrium, or the reference state.
 
     Raises:
-        ValueError: wrong length, not finite, or a stretch that is not positive.
+        ValueError: an unknown name, wrong length, not finite, a stretch that is not positive, or no equilibrium.
     """
     model = problem.model
-    if given is None:
-        return np.array(model.reference_state(problem.parameters), dtype=float)
+    if given is None or isinstance(given, Mapping | str):
+        return starting_state(problem, given, limits)
     names = ", ".join(f"{entry.name} [{entry.unit}]" for entry in model.STATE)
     state = np.asarray(checks.finite("initial_state", given, "the units of the state"))
     if state.shape != (len(model.STATE),):
@@ -146,7 +167,7 @@ def initial_values(problem: Problem, given: np.ndarray | None) -> np.ndarray:
             f"initial_state must hold {len(model.STATE)} values ({names}), got shape {state.shape}"
         )
     for entry, value in zip(model.STATE, state):
-        if "stretch_rate" not in entry.name:
+        if is_stretch(entry):
             checks.positive(f"initial_state {entry.name}", value, entry.unit)
     return state
 
@@ -160,6 +181,7 @@ def _dataset(
             **_state_variables(problem, trajectory.state),
             **_input_variables(problem, inputs),
             **_derived_variables(problem, trajectory.state, inputs),
+            **electrode_variables(problem, trajectory.state, inputs),
             **(_energy_variables(problem, trajectory.state, inputs) if energies else {}),
         }
     data["status"] = status_variable((), trajectory.status)
@@ -205,7 +227,7 @@ _ENERGIES = {
 
 def _energy_variables(problem: Problem, state: np.ndarray, inputs: list[np.ndarray]) -> dict[str, tuple]:
     data = {}
-    for name, (unit, meaning, symbol) in _ENERGIES.items():
+    for name, (unit, meaning, symbol) in (_ENERGIES | powers_of(problem.model)).items():
         values = getattr(problem.model, name)(state, inputs, problem.parameters)
         data[name] = variable("time", np.broadcast_to(values, state.shape[1:]).copy(), unit, meaning, symbol)
     total = data["kinetic_energy"][1] + data["potential_energy"][1]

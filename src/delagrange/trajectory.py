@@ -113,7 +113,8 @@ def _segment(
     while solver.status == "running":
         good = solver.t, solver.y
         if not _stepped(solver):
-            yield Stride(good[0], good[0], good[1], None, loss.DIVERGED)
+            kind = int(problem.kind_of_failure(*good))
+            yield Stride(good[0], good[0], good[1], None, kind)
             return
         yield _cut_at_loss(problem, solver, limits)
 
@@ -142,12 +143,12 @@ def _cut_at_loss(problem: Problem, solver: OdeSolver, limits: Limits) -> Stride:
 
 
 def _distance(problem: Problem, time: float, state: np.ndarray, limits: Limits) -> float:
-    distance = float(loss.margin(problem.principal_stretches(time, state), limits))
+    distance = float(problem.margin(time, state, limits))
     return distance if np.isfinite(distance) else -1.0
 
 
 def _kind(problem: Problem, time: float, state: np.ndarray, limits: Limits) -> int:
-    return loss.kind_of_loss(problem.principal_stretches(time, state), limits)
+    return problem.kind_of_loss(time, state, limits)
 
 
 def choose_method(problem: Problem, state: np.ndarray) -> str:

@@ -7,16 +7,17 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 import typer
+from rich.text import Text
 
-from delagrange.checks import scalar
-from delagrange.cli import console
+from delagrange.cli import charge, console
 from delagrange.cli import options as o
 from delagrange.cli.drives import field_drive, force_drive
-from delagrange.cli.initial import initial_state
+from delagrange.cli.initial import single_start
 from delagrange.cli.interruption import interruptible
+from delagrange.cli.named import inputs_given, material_given
 from delagrange.cli.plots import check_plot, write_plot
+from delagrange.drive import Drive
 from delagrange.files import check_writable, write_dataset
-from delagrange.parameters import CHANGEABLE_UNITS
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -40,7 +41,9 @@ def classify(
     frequency: o.Frequency = None,
     field_bias: o.FieldBias = None,
     field_phase: o.FieldPhase = None,
-    initial: o.Initial = None,
+    charge_amplitude: charge.ChargeAmplitude = None,
+    charge_bias: charge.ChargeBias = None,
+    initial: o.Start = None,
     half_length: o.HalfLength = None,
     half_thickness: o.HalfThickness = None,
     density: o.Density = None,
@@ -49,6 +52,8 @@ def classify(
     shear_modulus_beta: o.ShearModulusBeta = None,
     viscosity: o.Viscosity = None,
     relaxation_time: o.RelaxationTime = None,
+    named_parameters: o.NamedParameters = None,
+    named_inputs: o.NamedInputs = None,
     dashpots: o.MotionDashpots = "frozen",
     duration: o.MotionDuration = None,
     transient: o.Transient = None,
@@ -63,7 +68,8 @@ def classify(
     equations, the lines of the spectrum and the base frequencies that they are
     made of, and the 0-1 test for chaos. Where they leave room for doubt the
     verdict is 'undecided', with the duration that would do. A field without bias
-    enters squared and forces at twice its frequency.
+    enters squared and forces at twice its frequency; so does a charge, with
+    --charge-amplitude and --frequency.
 
     [bold]Examples[/]
 
@@ -77,10 +83,14 @@ def classify(
     check_plot(plot)
     from delagrange.models import load_model
 
-    units = {entry.name: entry.unit for entry in load_model(model, formulation, lateral_dashpot).STATE}
-    start = initial_state(initial, units) or {}
-    start = {name: scalar(f"initial {name}", value, units[name]) for name, value in start.items()}
-    force_load, field_load = force_drive(context.params), field_drive(context.params)
+    module = load_model(model, formulation, lateral_dashpot)
+    start = single_start(initial, {entry.name: entry.unit for entry in module.STATE})
+    force_load, inputs = force_drive(context.params), inputs_given(named_inputs, module)
+    field_load: Drive | float = 0.0
+    if charge_amplitude is None and charge_bias is None:
+        field_load = field_drive(context.params)
+    else:
+        inputs = charge.with_charge(inputs, context.params)
     with interruptible("the motion was not followed to the end, nothing was written"):
         from delagrange.analysis.motion.classify import classify as judge
 
@@ -88,16 +98,17 @@ def classify(
             model,
             force=force_load,
             field=field_load,
+            inputs=inputs,
             formulation=formulation,
             lateral_dashpot=lateral_dashpot,
             held_stretch=held_stretch,
-            initial_state=start or None,
+            initial_state=start,
             dashpots=dashpots,
             duration=duration,
             transient=transient,
             tolerance=tolerance,
             progress=not quiet,
-            **{name: context.params[name] for name in CHANGEABLE_UNITS if context.params[name] is not None},
+            **material_given(context.params, named_parameters, module),
         )
         if out is not None:
             write_dataset(motion, out)
@@ -120,9 +131,10 @@ def _check_netcdf(out: Path) -> None:
 def _report(motion: xr.Dataset) -> None:
     verdict = motion["verdict"].item()
     output = console.output()
-    output.print(f"{motion.attrs['model']}: [bold {_COLOURS.get(verdict, 'green')}]{verdict}[/]")
+    told = (verdict, f"bold {_COLOURS.get(verdict, 'green')}")
+    output.print(Text.assemble(f"{motion.attrs['model']}: ", told))
     for sentence in motion["evidence"].item().split("; "):
-        output.print(f"  {sentence}")
+        output.print(Text(f"  {sentence}"))
     if motion.sizes["exponent"] and np.all(np.isfinite(motion["lyapunov_exponents"])):
         console.show("Lyapunov spectrum", _exponents(motion))
     if motion.sizes["line"]:

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import os
 import sys
+from typing import Any
 
 from rich import box
-from rich.console import Console
+from rich.console import Console, RenderableType
 from rich.table import Table
 from rich.text import Text
 
@@ -24,11 +25,19 @@ def messages(quiet: bool = False) -> Console:
     return Console(stderr=True, highlight=False, quiet=quiet)
 
 
+class PlainTable(Table):
+    """A table that shows every text as it stands: a unit in brackets, like [kg], is no markup."""
+
+    def add_row(self, *cells: RenderableType | None, **options: Any) -> None:
+        """As of any table of rich."""
+        super().add_row(*(Text(cell) if isinstance(cell, str) else cell for cell in cells), **options)
+
+
 def table(*headings: str) -> Table:
     """An empty table in the style of all tables, tight enough for 80 columns."""
-    empty = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False, padding=(0, 1, 0, 0))
+    empty = PlainTable(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False, padding=(0, 1, 0, 0))
     for heading in headings:
-        empty.add_column(heading, overflow="fold")
+        empty.add_column(Text(heading), overflow="fold")
     return empty
 
 

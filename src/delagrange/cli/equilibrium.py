@@ -11,9 +11,10 @@ from delagrange.cli import console, quantities
 from delagrange.cli import options as o
 from delagrange.cli.initial import initial_state
 from delagrange.cli.interruption import interruptible
+from delagrange.cli.named import inputs_given, material_given, refuse_many
 from delagrange.cli.plots import check_plot, write_plot
 from delagrange.files import check_writable, write_dataset
-from delagrange.parameters import CHANGEABLE_UNITS
+from delagrange.inputs import CHARGE_DENSITY, ELECTRIC_FIELD, ELECTRICAL, ElectricalInput
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -22,6 +23,13 @@ if TYPE_CHECKING:
 _MOST_ROWS = 60  # of the printed table; the file has all
 _DEFAULT_FIELDS = 12
 _PAST = 1.05  # of the critical field: as far as the default goes
+_PART = 0.05  # of a charge up to which nothing happens
+_BESIDE_MAP = {
+    "field": "finds the field",
+    "voltage": "finds the voltage",
+    "force": "gives the forces itself",
+    "dashpots": "has relaxed and frozen ones side by side",
+}  # options that mean nothing there, and why
 _CURVES = ("point", "limit_point")  # dimensions that a table over field and branch has no room for
 
 
@@ -48,14 +56,17 @@ def equilibrium(
     shear_modulus_beta: o.ShearModulusBeta = None,
     viscosity: o.Viscosity = None,
     relaxation_time: o.RelaxationTime = None,
+    named_parameters: o.NamedParameters = None,
+    named_inputs: o.NamedInputs = None,
     plot: o.PlotFile = None,
     out: o.OutFile = None,
     quiet: o.Quiet = False,
 ) -> None:
     """Equilibria: all branches over the field, their stability, where they end.
 
-    Under a constant force and field, with dashpots relaxed or frozen. Branch 0 is
-    that of the unloaded membrane; at a limit point it meets an unstable one and
+    Under a constant force and field, with dashpots relaxed or frozen; under charge
+    control over --input nominal_charge_density=START:STOP:STEP. Branch 0 is that of
+    the unloaded membrane; at a limit point it meets an unstable one and
     both end: pull-in. Loss of tension and electrical breakdown are told where the
     criteria say so. Without --field or --voltage, fields up to a little beyond
     pull-in are taken.
@@ -74,14 +85,11 @@ def equilibrium(
     if out is not None:
         check_writable(out)
     check_plot(plot)
-    if map_force and (field or voltage):
-        raise ValueError(
-            "--field and --voltage change nothing with --map-force, which finds the field; leave them out"
-        )
+    if map_force:
+        _refuse_beside_map(context)
     from delagrange.models import load_model
 
     module = load_model(model, formulation, lateral_dashpot)
-    given = {name: context.params[name] for name in CHANGEABLE_UNITS}
     common = {
         "formulation": formulation,
         "lateral_dashpot": lateral_dashpot,
@@ -90,8 +98,10 @@ def equilibrium(
         "breakdown_field": breakdown_field,
         "breakdown_exponent": breakdown_exponent,
         "smallest_tension": smallest_tension,
-        **{name: value for name, value in given.items() if value is not None},
+        "inputs": inputs_given(named_inputs, module),
+        **material_given(context.params, named_parameters, module),
     }
+    refuse_many(common, module, but=None if map_force else CHARGE_DENSITY.name)
     with interruptible("the equilibria were not finished, nothing was written"):
         if map_force:
             found = _critical_map(model, map_force, common, quiet)
@@ -107,6 +117,13 @@ def equilibrium(
 
         draw = figure.draw_critical_map if map_force else figure.draw_equilibria
         write_plot(lambda: draw(found), plot)
+
+
+def _refuse_beside_map(context: typer.Context) -> None:
+    """Refuse what a map of the critical field would not use: it was meant to change something."""
+    for name, reason in _BESIDE_MAP.items():
+        if context.get_parameter_source(name).name != "DEFAULT":
+            raise ValueError(f"--{name} changes nothing with --map-force, which {reason}; leave it out")
 
 
 def _critical_map(model: str, texts: list[str], common: dict[str, object], quiet: bool) -> xr.Dataset:
@@ -128,19 +145,29 @@ def _equilibria(
 ) -> xr.Dataset:
     from delagrange.analysis.rest.equilibria import equilibria
 
-    fields = quantities.axis("field", field, "V/m")
-    voltages = quantities.axis("voltage", voltage, "V")
-    if fields is None and voltages is None:
-        fields = _default_fields(model, force, dashpots, common)
-    return equilibria(model, force=force, field=fields, voltage=voltages, dashpots=dashpots, **common)
+    given = {
+        "field": quantities.axis("field", field, "V/m"),
+        "voltage": quantities.axis("voltage", voltage, "V"),
+    }
+    if all(value is None for value in (*given.values(), (common["inputs"] or {}).get(CHARGE_DENSITY.name))):
+        given |= _default_values(model, force, dashpots, common)
+    return equilibria(model, force=force, dashpots=dashpots, **(common | given))
 
 
-def _default_fields(model: str, force: float, dashpots: str, common: dict[str, object]) -> np.ndarray:
-    """From none to a little beyond where the stable branch ends [V/m]."""
-    from delagrange.analysis.rest.pull_in import pull_in
+def _default_values(model: str, force: float, dashpots: str, common: dict[str, object]) -> dict[str, object]:
+    """From none to a little beyond where the stable branch ends: of the field, or of the charge among the inputs."""
+    from delagrange.analysis.rest.pull_in import critical_names, pull_in
 
-    highest = float(pull_in(model, force=force, dashpots=dashpots, **common)["highest_field"])
-    return np.linspace(0.0, _PAST * highest, _DEFAULT_FIELDS) if highest > 0 else np.zeros(1)
+    found = pull_in(model, force=force, dashpots=dashpots, **common)
+    electrical = ELECTRICAL[found.attrs["varied_input"]]
+    ended = np.isfinite(float(found[electrical.argument]))
+    highest = float(found[critical_names(electrical)["highest"]]) * (
+        1.0 if ended or electrical is ELECTRIC_FIELD else _PART
+    )
+    values = np.linspace(0.0, _PAST * highest, _DEFAULT_FIELDS) if highest > 0 else np.zeros(1)
+    if electrical is ELECTRIC_FIELD:
+        return {"field": values}
+    return {"inputs": {**(common["inputs"] or {}), electrical.name: values}}
 
 
 def _for_file(found: xr.Dataset, suffix: str) -> xr.Dataset:
@@ -149,38 +176,52 @@ def _for_file(found: xr.Dataset, suffix: str) -> xr.Dataset:
 
 
 def _report(found: xr.Dataset) -> None:
+    from delagrange.dataset import forces_text
+
     attributes = found.attrs
-    title = f"{attributes['model']}: equilibria under {float(found['force']):g} N, dashpots {attributes['dashpots']}"
+    title = f"{attributes['model']}: equilibria under {forces_text(found)}, dashpots {attributes['dashpots']}"
     console.show(title, _table(found))
     output = console.output()
-    for kind, field, voltage in zip(
-        found["limit_kind"].values, found["limit_field"].values, found["limit_voltage"].values
-    ):
-        output.print(f"[bold]{kind}[/] at {field:.7g} V/m ({voltage:.7g} V)")
+    electrical = _electrical(found)
+    name, unit = electrical.argument, electrical.unit
+    for limit in range(found.sizes["limit_point"]):
+        here = found.isel(limit_point=limit)
+        voltage = f" ({here['limit_voltage'].item():.7g} V)" if "limit_voltage" in found else ""
+        output.print(
+            f"[bold]{here['limit_kind'].item()}[/] at {here[f'limit_{name}'].item():.7g} {unit}{voltage}"
+        )
     for branch in found["branch"].values:
         here = found.isel(branch=int(branch))
-        low, high = float(here["branch_lowest_field"]), float(here["branch_highest_field"])
+        low, high = float(here[f"branch_lowest_{name}"]), float(here[f"branch_highest_{name}"])
         lower, upper = here["branch_lower_end"].item(), here["branch_upper_end"].item()
-        output.print(f"branch {branch}: {lower} at {low:.6g} V/m, {upper} at {high:.6g} V/m")
+        output.print(f"branch {branch}: {lower} at {low:.6g} {unit}, {upper} at {high:.6g} {unit}")
     if not found.sizes["branch"]:
-        output.print("[yellow]no equilibrium[/] at any of these fields")
+        output.print(f"[yellow]no equilibrium[/] at any of these {electrical.stem}s")
+    if "unloaded_lost" in found.attrs:
+        output.print(f"none from the unloaded membrane: {found.attrs['unloaded_lost']}", markup=False)
+
+
+def _electrical(found: xr.Dataset) -> ElectricalInput:
+    return ELECTRICAL[found.attrs["varied_input"]]
 
 
 def _table(found: xr.Dataset) -> Table:
     """Every equilibrium, in the order of the file."""
-    names = [name for name in ("stretch_1", "stretch_2") if name in found] or ["stretch"]
+    names, electrical = found.attrs["coordinates"].split(", "), _electrical(found)
+    along, unit = electrical.argument, electrical.unit
     table = console.table(
-        "field [V/m]", "branch", *(f"{name} [1]" for name in names), "stability", "margin [V/m]", "beyond"
-    )
-    over = found if "field" in found.dims else found.expand_dims("field")
-    rows = [place for place in np.ndindex(over.sizes["field"], over.sizes["branch"]) if _there(over, place)]
-    for field, branch in rows[:_MOST_ROWS]:
-        here = over.isel(field=field, branch=branch)
+        f"{electrical.text} [{unit}]", "branch", *(f"{name} [1]" for name in names), "stability",
+        f"margin [{unit}]", "beyond",
+    )  # fmt: skip
+    over = found if along in found.dims else found.expand_dims(along)
+    rows = [place for place in np.ndindex(over.sizes[along], over.sizes["branch"]) if _there(over, place)]
+    for value, branch in rows[:_MOST_ROWS]:
+        here = over.isel({along: value, "branch": branch})
         numbers = [f"{here[name].item():.7g}" for name in names]
         margin = f"{here['margin'].item():.5g}"
         flags = [name.replace("_", " ") for name in ("tension_lost", "breakdown") if here[name].item()]
         table.add_row(
-            f"{here['field'].item():.6g}",
+            f"{here[along].item():.6g}",
             str(branch),
             *numbers,
             here["stability"].item(),
@@ -193,20 +234,20 @@ def _table(found: xr.Dataset) -> Table:
 
 
 def _there(found: xr.Dataset, place: tuple[int, int]) -> bool:
-    return bool(np.isfinite(found["stretch"].values[place]))
+    return bool(np.isfinite(found["true_field"].values[place]))
 
 
 def _report_map(critical: xr.Dataset) -> None:
     loads = critical["load"].values
-    table = console.table("force [N]", *(f"{load} [V/m]" for load in loads))
+    table = console.table("force [N]", *(f"{load} [{_electrical(critical).unit}]" for load in loads))
     for place, force in enumerate(critical["force"].values[:_MOST_ROWS]):
         cells = [_cell(critical.isel(load=number, force=place)) for number in range(len(loads))]
         table.add_row(f"{force:.6g}", *cells)
     if (more := critical.sizes["force"] - _MOST_ROWS) > 0:
         table.caption = f"and {more} more forces"
-    console.show(f"{critical.attrs['model']}: critical field over the force", table)
+    console.show(f"{critical.attrs['model']}: critical {_electrical(critical).stem} over the force", table)
 
 
 def _cell(here: xr.Dataset) -> str:
-    field = here["field"].item()
+    field = here[_electrical(here).argument].item()
     return f"{field:.7g}" if np.isfinite(field) else here["found"].item()

@@ -1,4 +1,4 @@
-"""The state at t = 0 as a person types it: NAME=VALUES, as often as needed."""
+"""The state at t = 0 as a person types it: NAME=VALUES, as often as needed, or `equilibrium`."""
 
 from __future__ import annotations
 
@@ -6,8 +6,11 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from delagrange.checks import did_you_mean
+from delagrange.checks import did_you_mean, scalar
 from delagrange.cli import quantities
+from delagrange.initial import EQUILIBRIUM
+
+Start = dict[str, float | np.ndarray] | str | None
 
 
 def initial_state(texts: list[str] | None, units: Mapping[str, str]) -> dict[str, float | np.ndarray] | None:
@@ -27,6 +30,34 @@ def initial_state(texts: list[str] | None, units: Mapping[str, str]) -> dict[str
     return {
         name: quantities.axis(f"initial {name}", values, units[name]) for name, values in collected.items()
     }
+
+
+def start_given(texts: list[str] | None, units: Mapping[str, str]) -> Start:
+    """As `initial_state`, or the loaded equilibrium where that is typed instead.
+
+    Raises:
+        ValueError: as `initial_state`; or values beside the equilibrium.
+    """
+    if EQUILIBRIUM not in (texts or ()):
+        return initial_state(texts, units)
+    others = [text for text in texts if text != EQUILIBRIUM]
+    if others:
+        raise ValueError(
+            f"initial {EQUILIBRIUM!r} says the whole state, and {others[0]!r} is given as well; give one"
+        )
+    return EQUILIBRIUM
+
+
+def single_start(texts: list[str] | None, units: Mapping[str, str]) -> Start:
+    """As `start_given`, of a single run.
+
+    Raises:
+        ValueError: as `start_given`; or many values of one state variable.
+    """
+    start = start_given(texts, units)
+    if not isinstance(start, dict):
+        return start
+    return {name: scalar(f"initial {name}", value, units[name]) for name, value in start.items()}
 
 
 def _parts(text: str, units: Mapping[str, str]) -> tuple[str, str]:

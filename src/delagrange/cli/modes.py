@@ -11,8 +11,10 @@ from delagrange.cli import console, quantities
 from delagrange.cli import options as o
 from delagrange.cli.initial import initial_state
 from delagrange.cli.interruption import interruptible
+from delagrange.cli.named import inputs_given, material_given
 from delagrange.cli.plots import check_plot, write_plot
 from delagrange.files import check_writable, write_dataset
+from delagrange.inputs import ELECTRICAL
 from delagrange.parameters import CHANGEABLE_UNITS
 
 if TYPE_CHECKING:
@@ -41,6 +43,8 @@ def modes(
     shear_modulus_beta: o.ShearModuliBeta = None,
     viscosity: o.Viscosities = None,
     relaxation_time: o.RelaxationTimes = None,
+    named_parameters: o.NamedParameters = None,
+    named_inputs: o.NamedInputs = None,
     plot: o.PlotFile = None,
     out: o.OutFile = None,
     quiet: o.Quiet = False,
@@ -48,7 +52,8 @@ def modes(
     """Natural frequencies and modes about the stable equilibrium.
 
     The equilibrium is the one that the unloaded membrane reaches under the force
-    and then the field, 0 V/m where none is given. The field enters squared: without
+    and then the field, 0 V/m where none is given; under charge control under
+    --input nominal_charge_density=VALUES instead. The field enters squared: without
     a bias it excites a mode at half its natural frequency, the "field frequency" of
     the table.
 
@@ -66,7 +71,9 @@ def modes(
     module = load_model(model, formulation, lateral_dashpot)
     units = _INPUT_UNITS | dict(CHANGEABLE_UNITS)
     values = {name: quantities.axis(name, context.params[name], unit) for name, unit in units.items()}
-    if plot is not None and not any(np.ndim(value) for value in values.values()):
+    values |= material_given(values, named_parameters, module)
+    inputs = inputs_given(named_inputs, module)
+    if plot is not None and not any(np.ndim(value) for value in (*values.values(), *(inputs or {}).values())):
         raise ValueError("--plot draws modes over what is varied: give an option two or more values")
     with interruptible("the modes were not finished, nothing was written"):
         from delagrange.analysis.rest.modes import modes as find_modes
@@ -74,6 +81,7 @@ def modes(
         found = find_modes(
             model,
             dashpots=dashpots,
+            inputs=inputs,
             formulation=formulation,
             lateral_dashpot=lateral_dashpot,
             initial_state=initial_state(initial, {entry.name: entry.unit for entry in module.STATE}),
@@ -92,17 +100,17 @@ def modes(
 
 def _table(found: xr.Dataset) -> Table:
     axes = [str(name) for name in found["frequency"].dims if name != "mode"]
-    stretches = [name for name in ("stretch_1", "stretch_2") if name in found] or ["stretch"]
+    stretches, stem = found.attrs["coordinates"].split(", "), ELECTRICAL[found.attrs["varied_input"]].stem
     damped = "decay_rate" in found
     headings = [f"{name} [{found[name].attrs['units']}]" for name in axes]
     table = console.table(
-        *headings, *(f"{name} [1]" for name in stretches), "mode", "frequency [Hz]", "field frequency [Hz]",
+        *headings, *(f"{name} [1]" for name in stretches), "mode", "frequency [Hz]", f"{stem} frequency [Hz]",
         *(["decay [1/s]"] if damped else []), "equilibrium",
     )  # fmt: skip
     places = list(np.ndindex(*(found.sizes[name] for name in axes), found.sizes["mode"]))
     for place in places[:_MOST_ROWS]:
         here = found.isel(dict(zip((*axes, "mode"), place, strict=True)))
-        names = (*axes, *stretches, "mode", "frequency", "resonant_field_frequency")
+        names = (*axes, *stretches, "mode", "frequency", f"resonant_{stem}_frequency")
         numbers = [f"{here[name].item():.7g}" for name in (*names, *(["decay_rate"] if damped else []))]
         table.add_row(*numbers, here["status"].item())
     if len(places) > _MOST_ROWS:

@@ -16,6 +16,7 @@ from delagrange.units import with_unit
 _MODEL = "Model"
 _FORCE = "Force on each loaded edge"
 _FIELD = "Nominal electric field (voltage over reference thickness)"
+_INSTEAD = "Charge or current, of a model that is driven by it"
 _START = "State at t = 0"
 _MATERIAL = "Membrane (default: the paper's)"
 _MEASURES = "What is measured"
@@ -63,7 +64,8 @@ Model = Annotated[
     str,
     typer.Argument(
         metavar="MODEL",
-        help="equal-biaxial, uniaxial or pure-shear; or the full name of a generated module.",
+        help="equal-biaxial, uniaxial or pure-shear; the full name of a generated module; or the path of a model "
+        "of your own, a Python file that you trust or a folder with one.",
         show_default=False,
     ),
 ]
@@ -170,7 +172,14 @@ FieldTable = Annotated[
     ),
 ]
 FieldAmplitudes = Annotated[
-    list[str], _values("V/m", "Amplitude of the sine field, in V/m", _FIELD, "--field-amplitude")
+    list[str] | None,
+    _values(
+        "V/m",
+        "Amplitude of the sine field, in V/m",
+        _FIELD,
+        "--field-amplitude",
+        default="needed where the model has a field",
+    ),
 ]
 FieldBiases = Annotated[
     list[str] | None,
@@ -181,19 +190,62 @@ FieldPhases = Annotated[
     _values("rad", "Phase of the sine field, in rad", _FIELD, "--field-phase", default="0 rad"),
 ]
 Frequencies = Annotated[
-    list[str], _values("Hz", "Frequency of the sine field, in Hz; increasing", _FIELD, "--frequency")
+    list[str],
+    _values("Hz", "Frequency of the sine field, charge or current, in Hz; increasing", _FIELD, "--frequency"),
+]
+
+
+def _instead(unit: str, text: str, name: str) -> OptionInfo:
+    """Of a charge or current, in a model that is driven by it."""
+    return _values(unit, f"{text}, in {unit}", _INSTEAD, name, default="none")
+
+
+ChargeAmplitudes = Annotated[
+    list[str] | None, _instead("C/m^2", "Amplitude of the sine nominal charge density", "--charge-amplitude")
+]
+ChargeBiases = Annotated[
+    list[str] | None, _instead("C/m^2", "Bias of the sine nominal charge density", "--charge-bias")
+]
+ChargePhases = Annotated[
+    list[str] | None, _instead("rad", "Phase of the sine nominal charge density", "--charge-phase")
+]
+CurrentAmplitudes = Annotated[
+    list[str] | None,
+    _instead("A/m^2", "Amplitude of the sine nominal current density", "--current-amplitude"),
+]
+CurrentBiases = Annotated[
+    list[str] | None, _instead("A/m^2", "Bias of the sine nominal current density", "--current-bias")
+]
+CurrentPhases = Annotated[
+    list[str] | None, _instead("rad", "Phase of the sine nominal current density", "--current-phase")
 ]
 
 # Start
-Initial = Annotated[
-    list[str] | None,
-    typer.Option(
+_STATE_VARIABLE = (
+    "State variable at t = 0, as stretch=1.1 or stretch_1=1:2:0.1; a stretch is a pure number, its rate in 1/s. "
+    f"{_RANGE}."
+)
+
+
+def _initial(text: str) -> OptionInfo:
+    return typer.Option(
         "--initial",
         metavar="NAME=VALUES",
-        help="State variable at t = 0, as stretch=1.1 or stretch_1=1:2:0.1; a stretch is a pure number, its "
-        f"rate in 1/s. {_RANGE}.",
+        help=text,
         rich_help_panel=_START,
         show_default="at rest in the reference state",
+    )
+
+
+Initial = Annotated[list[str] | None, _initial(_STATE_VARIABLE)]
+_EQUILIBRIUM = (
+    "'equilibrium': at rest and relaxed under the forces at t = 0, without field, charge or current."
+)
+Starts = Annotated[list[str] | None, _initial(f"{_STATE_VARIABLE} Or {_EQUILIBRIUM}")]
+Start = Annotated[
+    list[str] | None,
+    _initial(
+        f"State variable at t = 0, as stretch=1.1 (a pure number) or stretch_rate=2 (1/s); or {_EQUILIBRIUM}"
     ),
 ]
 
@@ -214,6 +266,30 @@ ShearModuliAlpha = Annotated[list[str] | None, _material("shear_modulus_alpha", 
 ShearModuliBeta = Annotated[list[str] | None, _material("shear_modulus_beta", _values)]
 Viscosities = Annotated[list[str] | None, _material("viscosity", _values)]
 RelaxationTimes = Annotated[list[str] | None, _material("relaxation_time", _values)]
+
+# Of a model of one's own
+NamedParameters = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--parameter",
+        metavar="NAME=VALUES",
+        help="Any parameter of the model, in its SI unit, as locking_alpha=40 or viscosity_2=1e3; a range where the "
+        "command takes many values. May be repeated.",
+        rich_help_panel=_MATERIAL,
+        show_default="the model's own",
+    ),
+]
+NamedInputs = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--input",
+        metavar="NAME=VALUES",
+        help="Any other input of the model, constant, in its SI unit, as force_2=0.3; a range where the command "
+        "takes many values. May be repeated.",
+        rich_help_panel=_FORCE,
+        show_default="0",
+    ),
+]
 
 # Integration
 Duration = Annotated[float, _number("s", "Duration of a run from t = 0, in s, 1e-9 to 1e6.", _NUMERICS)]

@@ -3,59 +3,42 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 import typer
-from rich.text import Text
 
 from delagrange import checks
-from delagrange.cli import console, quantities
+from delagrange.cli import charge
 from delagrange.cli import options as o
 from delagrange.cli.initial import initial_state
 from delagrange.cli.interruption import Interrupted, interruptible
+from delagrange.cli.named import inputs_given, material_given, refuse_many
 from delagrange.cli.plots import check_plot, write_plot
+from delagrange.cli.response_load import Span, electrical_load, load_given, varied_name
+from delagrange.cli.response_tables import report_steady, report_transient
 from delagrange.files import check_writable, write_dataset
-from delagrange.parameters import CHANGEABLE_UNITS
-from delagrange.units import unit_name
+from delagrange.inputs import electrical_input
 
 if TYPE_CHECKING:
     import xarray as xr
     from matplotlib.figure import Figure
-    from rich.table import Table
 
-_LOAD_UNITS = {"force": "N", "field_amplitude": "V/m", "field_bias": "V/m", "frequency": "Hz"}
-_STEPS = 500  # of the transient amplitude over a range without a step
 _SWEEP_STEPS = 60
-_MOST_ROWS = 40
-
-
-@dataclass(frozen=True)
-class _Span:
-    """A range as typed: START:STOP or START:STOP:STEP."""
-
-    start: float
-    stop: float
-    step: float | None
-
-    def values(self) -> np.ndarray:
-        """Increasing, both ends included as far as steps land on them."""
-        low, high = sorted((self.start, self.stop))
-        step = (high - low) / _STEPS if self.step is None else self.step
-        return low + step * np.arange(int((high - low) / step + 1e-9) + 1)
 
 
 def response(
     context: typer.Context,
     model: o.Model,
-    field_amplitude: o.SpannedFieldAmplitude,
     frequency: o.SpannedFrequency,
+    field_amplitude: o.SpannedFieldAmplitude = None,
+    charge_amplitude: charge.SpannedChargeAmplitude = None,
     formulation: o.Formulation = None,
     lateral_dashpot: o.LateralDashpot = None,
     held_stretch: o.HeldStretch = None,
     force: o.SpannedForce = None,
     field_bias: o.SpannedFieldBias = None,
+    charge_bias: charge.SpannedChargeBias = None,
     initial: o.Initial = None,
     half_length: o.HalfLength = None,
     half_thickness: o.HalfThickness = None,
@@ -65,6 +48,8 @@ def response(
     shear_modulus_beta: o.ShearModulusBeta = None,
     viscosity: o.Viscosity = None,
     relaxation_time: o.RelaxationTime = None,
+    named_parameters: o.NamedParameters = None,
+    named_inputs: o.NamedInputs = None,
     steady: o.Steady = False,
     dashpots: o.SteadyDashpots = None,
     largest_amplitude: o.LargestAmplitude = None,
@@ -83,7 +68,8 @@ def response(
     periodic motions, stable or not, along the one quantity of the load that is
     given as START:STOP, with Floquet multipliers and bifurcations; the picture
     shows the transient amplitude beside them. Without bias the field, which
-    enters squared, forces at twice its frequency.
+    enters squared, forces at twice its frequency. Under charge control the charge
+    stands for the field.
 
     [bold]Examples[/]
 
@@ -96,8 +82,8 @@ def response(
     if out is not None:
         check_writable(out)
     check_plot(plot)
-    load = {name: _load_value(name, context.params[name]) for name in _LOAD_UNITS}
-    varied = _varied(load)
+    load = load_given(context.params)
+    varied = varied_name(load)
     _refuse_idle(
         steady, {"--dashpots": dashpots, "--largest-amplitude": largest_amplitude, "--sweeps": sweeps or None}
     )
@@ -106,13 +92,16 @@ def response(
     from delagrange.models import load_model
 
     module = load_model(model, formulation, lateral_dashpot)
+    load = electrical_load(load, electrical_input(module), module.MODEL)
     common = {
         "formulation": formulation,
         "lateral_dashpot": lateral_dashpot,
         "held_stretch": held_stretch,
         "initial_state": initial_state(initial, {entry.name: entry.unit for entry in module.STATE}),
-        **{name: context.params[name] for name in CHANGEABLE_UNITS if context.params[name] is not None},
+        "inputs": inputs_given(named_inputs, module),
+        **material_given(context.params, named_parameters, module),
     }
+    refuse_many(common, module)
     with interruptible("the response was not finished, nothing was written"):
         if steady:
             limits = {"largest_amplitude": largest_amplitude, "most_points": most_points}
@@ -125,43 +114,13 @@ def response(
         draw = None
         if plot is not None:
             draw = _drawing(result, model, load, varied, common, duration, sweeps, quiet)
-    (_report_steady if steady else _report_transient)(result, varied)
+    (report_steady if steady else report_transient)(result, varied)
     if out is not None:
         print(f"written: {out}")
     if draw is not None:
         write_plot(draw, plot)
     if steady and result.attrs["search"] == "interrupted":
         raise Interrupted("the search was not finished; the branches found until then are above")
-
-
-def _load_value(name: str, text: str | None) -> float | _Span:
-    """The number or the range that an option says.
-
-    Raises:
-        ValueError: it says neither.
-    """
-    unit = _LOAD_UNITS[name]
-    if text is None:
-        return 0.0
-    parts = [quantities.number(name, part, unit) for part in text.split(":")]
-    if len(parts) == 1:
-        return parts[0]
-    finite = bool(np.all(np.isfinite(parts)))
-    if len(parts) > 3 or not finite or parts[0] == parts[1] or (len(parts) == 3 and parts[2] <= 0):
-        raise ValueError(
-            f"{name} must be a number or START:STOP or START:STOP:STEP in {unit_name(unit)} with two distinct finite "
-            f"ends and STEP > 0, got {text!r}"
-        )
-    return _Span(parts[0], parts[1], parts[2] if len(parts) == 3 else None)
-
-
-def _varied(load: Mapping[str, float | _Span]) -> str:
-    """The one quantity of the load that is a range."""
-    spans = [name for name, value in load.items() if isinstance(value, _Span)]
-    if len(spans) != 1:
-        options = ", ".join(f"--{name.replace('_', '-')}" for name in _LOAD_UNITS)
-        raise ValueError(f"exactly one of {options} must be a range START:STOP, got {len(spans)}")
-    return spans[0]
 
 
 def _refuse_idle(steady: bool, given: Mapping[str, object]) -> None:
@@ -181,19 +140,19 @@ def _check_sweeps(varied: str, dashpots: str | None) -> None:
 
 
 def _steady(
-    model: str, load: Mapping[str, float | _Span], more: Mapping[str, object], quiet: bool
+    model: str, load: Mapping[str, float | Span], more: Mapping[str, object], quiet: bool
 ) -> xr.Dataset:
     from delagrange.analysis.steady.response import steady_response
 
     pairs = {
-        name: (value.start, value.stop) if isinstance(value, _Span) else value for name, value in load.items()
+        name: (value.start, value.stop) if isinstance(value, Span) else value for name, value in load.items()
     }
     return steady_response(model, **pairs, **more, progress=not quiet)
 
 
 def _transient(
     model: str,
-    load: Mapping[str, float | _Span],
+    load: Mapping[str, float | Span],
     varied: str,
     common: Mapping[str, object],
     duration: float,
@@ -203,14 +162,12 @@ def _transient(
     from delagrange.response import frequency_response
 
     checks.positive("duration", duration, "s")
-    grid = {name: value.values() if isinstance(value, _Span) else value for name, value in load.items()}
+    grid = {name: value.values() if isinstance(value, Span) else value for name, value in load.items()}
     found = frequency_response(model, duration=duration, progress=not quiet, **grid, **common)
     return found if varied == "frequency" else found.isel(frequency=0)
 
 
-def _stepped(
-    model: str, load: Mapping[str, float | _Span], common: Mapping[str, object], quiet: bool
-) -> list:
+def _stepped(model: str, load: Mapping[str, float | Span], common: Mapping[str, object], quiet: bool) -> list:
     from delagrange.analysis.steady.stepped_sweep import stepped_sweep
 
     span = load["frequency"]
@@ -226,7 +183,7 @@ def _stepped(
 def _drawing(
     result: xr.Dataset,
     model: str,
-    load: Mapping[str, float | _Span],
+    load: Mapping[str, float | Span],
     varied: str,
     common: Mapping[str, object],
     duration: float,
@@ -247,67 +204,3 @@ def _as_table(result: xr.Dataset) -> xr.Dataset:
     """What has a row a point: for CSV, whose rows are a grid of all dimensions."""
     dropped = [name for name in ("bifurcation", "branch", "end") if name in result.dims]
     return result.drop_dims(dropped)
-
-
-def _report_transient(result: xr.Dataset, varied: str) -> None:
-    amplitude = result["amplitude"].values
-    table = console.table(f"{varied} [{_LOAD_UNITS[varied]}]", "largest amplitude [1]", "points", "lost")
-    lost = int(np.sum(~np.isfinite(amplitude)))
-    if lost == len(amplitude):
-        table.add_row("-", "-", str(len(amplitude)), str(lost))
-    else:
-        place = int(np.nanargmax(amplitude))
-        row = (
-            f"{float(result[varied][place]):.6g}",
-            f"{amplitude[place]:.6g}",
-            str(len(amplitude)),
-            str(lost),
-        )
-        table.add_row(*row)
-    window = f"{result.attrs['window_start']:g} to {result.attrs['window_stop']:g} s"
-    console.show(f"{result.attrs['model']}: transient amplitude, window {window}", table)
-
-
-def _report_steady(result: xr.Dataset, varied: str) -> None:
-    model, dashpots = result.attrs["model"], result.attrs["dashpots"]
-    console.show(
-        f"{model}: periodic motions along {varied}, dashpots {dashpots}", _branch_table(result, varied)
-    )
-    if result.sizes["bifurcation"]:
-        console.show("Bifurcations", _bifurcation_table(result, varied))
-    output = console.output()
-    output.print(f"search: {result.attrs['search']}")
-    output.print(Text(result.attrs["explanation"]))
-    if result.sizes["point"]:
-        output.print(
-            f"multipliers' product: relative error at most {float(result['product_error'].max()):.1g}"
-        )
-
-
-def _branch_table(result: xr.Dataset, varied: str) -> Table:
-    unit = _LOAD_UNITS[varied]
-    headings = ("branch", "points", f"from [{unit}]", f"to [{unit}]", "amplitude [1]", "stability", "ends")
-    table = console.table(*headings)
-    for number in range(min(result.sizes["branch"], _MOST_ROWS)):
-        one = result.isel(point=np.flatnonzero(result["branch_number"].values == number))
-        values, amplitude = one[varied].values, one["amplitude"].values
-        names, counts = np.unique(one["stability"].values.astype(str), return_counts=True)
-        table.add_row(
-            str(number), str(len(values)), f"{values[0]:.6g}", f"{values[-1]:.6g}",
-            f"{amplitude.min():.3g} to {amplitude.max():.3g}",
-            ", ".join(f"{count} {name}" for name, count in zip(names, counts)),
-            "; ".join(dict.fromkeys(result["ending"].values[number])),
-        )  # fmt: skip
-    return table
-
-
-def _bifurcation_table(result: xr.Dataset, varied: str) -> Table:
-    table = console.table("kind", f"{varied} [{_LOAD_UNITS[varied]}]", "amplitude [1]", "branch")
-    count = result.sizes["bifurcation"]
-    for place in range(min(count, _MOST_ROWS)):
-        numbers = (result[f"bifurcation_{name}"].values[place] for name in (varied, "amplitude"))
-        kind, branch = result["bifurcation_kind"].values[place], result["bifurcation_branch"].values[place]
-        table.add_row(str(kind), *(f"{number:.8g}" for number in numbers), str(branch))
-    if count > _MOST_ROWS:
-        table.caption = f"and {count - _MOST_ROWS} more"
-    return table

@@ -10,9 +10,10 @@ import typer
 from delagrange.cli import console
 from delagrange.cli import options as o
 from delagrange.cli.drives import field_drive, force_drive
+from delagrange.cli.initial import single_start
 from delagrange.cli.interruption import interruptible
+from delagrange.cli.named import inputs_given, material_given
 from delagrange.files import check_writable, write_dataset
-from delagrange.parameters import CHANGEABLE_UNITS
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -40,6 +41,7 @@ def simulate(
     field_step_time: o.FieldStepTime = None,
     field_ramp: o.FieldRamp = None,
     field_table: o.FieldTable = None,
+    initial: o.Start = None,
     half_length: o.HalfLength = None,
     half_thickness: o.HalfThickness = None,
     density: o.Density = None,
@@ -48,6 +50,8 @@ def simulate(
     shear_modulus_beta: o.ShearModulusBeta = None,
     viscosity: o.Viscosity = None,
     relaxation_time: o.RelaxationTime = None,
+    named_parameters: o.NamedParameters = None,
+    named_inputs: o.NamedInputs = None,
     method: o.Method = "DOP853",
     rtol: o.Rtol = 1e-9,
     atol: o.Atol = 1e-12,
@@ -58,25 +62,31 @@ def simulate(
 ) -> None:
     """Integrate one run: stretches over time under a force and an electric field.
 
-    From rest in the reference state, the Euler-Lagrange equation
-    d/dt (∂l/∂λ̇) - ∂l/∂λ = 0 with l = T - Π and the flow of the dashpot are
-    integrated over the duration. The field is nominal: voltage over reference
+    From rest in the reference state, unless --initial says otherwise, the
+    Euler-Lagrange equation d/dt (∂l/∂λ̇) - ∂l/∂λ = 0 with l = T - Π and the flow
+    of the dashpot are integrated over the duration. The field is nominal: voltage over reference
     thickness. A run ends 'completed', 'collapsed' (a principal stretch fell
-    below 1e-3: pulled in) or 'diverged' (a stretch passed 100 or was no longer
-    finite); after such a loss the state is NaN.
+    below 1e-3: pulled in), 'diverged' (a stretch passed 100 or was no longer
+    finite) or 'locked' (the strain energy ceased to hold); after such a loss the
+    state is NaN.
 
     [bold]Examples[/]
 
       delagrange simulate equal-biaxial --force 0.5 --field-amplitude 5e6 \\
           --frequency 371 --duration 0.1 --out run.nc
       delagrange simulate pure-shear --held-stretch 2 --force 0.1 \\
-          --field-ramp 0:3e6:0.05 --duration 0.1 --energies
+          --field-ramp 0:3e6:0.05 --duration 0.1 --energies \\
+          --initial equilibrium
       delagrange simulate uniaxial --force 0.5 --relaxation-time 1e-3 \\
           --method Radau --duration 0.05 --out run.csv
     """
     if out is not None:
         check_writable(out)
     force_load, field_load = force_drive(context.params), field_drive(context.params)
+    from delagrange.models import load_model
+
+    module = load_model(model, formulation, lateral_dashpot)
+    start = single_start(initial, {entry.name: entry.unit for entry in module.STATE})
     with interruptible("the run was not finished, nothing was written"):
         from delagrange.simulation import simulate as integrate
 
@@ -85,16 +95,18 @@ def simulate(
             duration=duration,
             force=force_load,
             field=field_load,
+            inputs=inputs_given(named_inputs, module),
             held_stretch=held_stretch,
             formulation=formulation,
             lateral_dashpot=lateral_dashpot,
+            initial_state=start,
             samples=samples,
             method=method,
             rtol=rtol,
             atol=atol,
             energies=energies,
             progress=not quiet,
-            **{name: context.params[name] for name in CHANGEABLE_UNITS if context.params[name] is not None},
+            **material_given(context.params, named_parameters, module),
         )
         if out is not None:
             write_dataset(run, out)

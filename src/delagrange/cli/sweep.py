@@ -10,8 +10,9 @@ import typer
 
 from delagrange.cli import console, quantities
 from delagrange.cli import options as o
-from delagrange.cli.initial import initial_state
+from delagrange.cli.initial import start_given
 from delagrange.cli.interruption import Interrupted, interruptible
+from delagrange.cli.named import inputs_given, material_given
 from delagrange.files import check_writable, write_dataset
 
 if TYPE_CHECKING:
@@ -24,16 +25,22 @@ _MOST_CURVES = 60  # rows of the printed table; the file has all
 def sweep(
     context: typer.Context,
     model: o.Model,
-    field_amplitude: o.FieldAmplitudes,
     frequency: o.Frequencies,
     duration: o.Duration,
+    field_amplitude: o.FieldAmplitudes = None,
     formulation: o.Formulation = None,
     lateral_dashpot: o.LateralDashpot = None,
     held_stretch: o.HeldStretches = None,
     force: o.Forces = None,
     field_bias: o.FieldBiases = None,
     field_phase: o.FieldPhases = None,
-    initial: o.Initial = None,
+    charge_amplitude: o.ChargeAmplitudes = None,
+    charge_bias: o.ChargeBiases = None,
+    charge_phase: o.ChargePhases = None,
+    current_amplitude: o.CurrentAmplitudes = None,
+    current_bias: o.CurrentBiases = None,
+    current_phase: o.CurrentPhases = None,
+    initial: o.Starts = None,
     half_length: o.HalfLengths = None,
     half_thickness: o.HalfThicknesses = None,
     density: o.Densities = None,
@@ -42,6 +49,8 @@ def sweep(
     shear_modulus_beta: o.ShearModuliBeta = None,
     viscosity: o.Viscosities = None,
     relaxation_time: o.RelaxationTimes = None,
+    named_parameters: o.NamedParameters = None,
+    named_inputs: o.NamedInputs = None,
     averages: o.Averages = False,
     final_state: o.FinalState = False,
     section_points: o.SectionPoints = None,
@@ -61,7 +70,8 @@ def sweep(
     """Frequency response: the amplitude of forced motion over frequency and more.
 
     Every combination of the given values is a run, from rest unless --initial
-    says otherwise, under E = bias + amplitude sin(2 pi f t + phase). The amplitude
+    says otherwise, under E = bias + amplitude sin(2 pi f t + phase); a model that
+    is driven by a charge or a current has that instead of the field. The amplitude
     is half of peak to peak of the first stretch over the window, transient
     included; the peak of a curve is its largest amplitude among the computed
     frequencies. A run that is lost has no amplitude; its status says why, and no
@@ -84,8 +94,9 @@ def sweep(
     from delagrange.sweep import SWEEP_UNITS
 
     module = load_model(model, formulation, lateral_dashpot)
-    start = initial_state(initial, {entry.name: entry.unit for entry in module.STATE})
+    start = start_given(initial, {entry.name: entry.unit for entry in module.STATE})
     axes = {name: quantities.axis(name, context.params[name], unit) for name, unit in SWEEP_UNITS.items()}
+    axes |= material_given(axes, named_parameters, module)
     with interruptible("the sweep was not finished, nothing was written"):
         from delagrange.response import frequency_response
 
@@ -97,6 +108,7 @@ def sweep(
                 formulation=formulation,
                 lateral_dashpot=lateral_dashpot,
                 initial_state=start,
+                inputs=inputs_given(named_inputs, module),
                 averages=averages,
                 final_state=final_state,
                 section_points=section_points,

@@ -1,4 +1,4 @@
-"""Branches of equilibria over the field, and the critical field over the force."""
+"""Branches of equilibria over the field, or the charge, and its critical value over the force."""
 
 from __future__ import annotations
 
@@ -12,6 +12,9 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import LogLocator, NullFormatter
 
 from delagrange.analysis.rest.critical_map import FAST, SLOW, SUDDEN
+from delagrange.analysis.rest.pull_in import critical_names
+from delagrange.dataset import forces_text
+from delagrange.figures.electrical_axis import electrical_axis
 from delagrange.figures.style import (
     BLACK,
     BLUE,
@@ -23,8 +26,6 @@ from delagrange.figures.style import (
     panel_letter,
 )
 
-FIELD_LABEL = r"nominal field $E$ [MV/m]"
-_MEGA = 1e6
 _LINES = {
     "stable": {"color": BLUE, "linestyle": "-"},
     "saddle": {"color": VERMILION, "linestyle": (0, (6, 1.5, 1, 1.5))},
@@ -48,7 +49,7 @@ _LOADS = {
 
 
 def draw_equilibria(found: xr.Dataset) -> Figure:
-    """Every coordinate over the field: stable branches solid, others dashed, with limits marked.
+    """Every coordinate over the field or charge: stable branches solid, others dashed, with limits marked.
 
     found: of `delagrange.equilibria`
     """
@@ -57,7 +58,7 @@ def draw_equilibria(found: xr.Dataset) -> Figure:
     all_axes = figure.subplots(1, len(names), squeeze=False)[0]
     for axes, name, letter in zip(all_axes, names, "abc"):
         _draw_branches(axes, found, name)
-        axes.set_xlabel(FIELD_LABEL)
+        axes.set_xlabel(electrical_axis(found).label)
         axes.set_ylabel(f"{found[name].attrs['long_name']} ${stretch_symbol(name)}$ [1]")
         if len(names) > 1:
             panel_letter(axes, letter)
@@ -67,18 +68,23 @@ def draw_equilibria(found: xr.Dataset) -> Figure:
 
 
 def coordinate_names(found: xr.Dataset) -> list[str]:
-    """The stretches among the state variables, in order."""
+    """The coordinates among the state variables, in order."""
+    if "coordinates" in found.attrs:
+        return found.attrs["coordinates"].split(", ")
     return [name for name in ("stretch_1", "stretch_2") if name in found] or ["stretch"]
 
 
 def stretch_symbol(name: str) -> str:
     """In TeX, without dollars."""
+    if "stretch" not in name:
+        return name.removeprefix("coordinate_").replace("_", r"\_")
     index = name.rpartition("_")[2]
     return rf"\lambda_{index}" if index.isdigit() else r"\lambda"
 
 
 def _draw_branches(axes: Axes, found: xr.Dataset, name: str) -> None:
-    field, stretch = found["curve_field"].values / _MEGA, found[f"curve_{name}"].values
+    along = electrical_axis(found)
+    field, stretch = found[f"curve_{along.name}"].values / along.size, found[f"curve_{name}"].values
     numbers, stability = found["curve_branch"].values, found["curve_stability"].values
     for (_, kind), places in _runs(zip(numbers, stability)):
         axes.plot(field[places], stretch[places], **_LINES[kind])
@@ -86,17 +92,17 @@ def _draw_branches(axes: Axes, found: xr.Dataset, name: str) -> None:
         for (_, flagged), places in _runs(zip(numbers, found[f"curve_{flag}"].values)):
             if flagged:
                 axes.plot(field[places], stretch[places], **style)
-    axes.plot(found["limit_field"] / _MEGA, found[f"limit_{name}"], **_LIMIT)
+    axes.plot(found[f"limit_{along.name}"] / along.size, found[f"limit_{name}"], **_LIMIT)
     axes.set_xlim(left=0.0, right=_right(found))
     _scale(axes, stretch[field <= _right(found)])
 
 
 def _scale(axes: Axes, shown: np.ndarray) -> None:
-    """Room for the stretches in the range of fields that is shown, logarithmic where they differ much."""
+    """Room for the coordinates in the range that is shown, logarithmic where positive ones differ much."""
     if not len(shown):
         return
     low, high = shown.min(), shown.max()
-    if high / low > _LARGEST_RATIO:
+    if low > 0 and high / low > _LARGEST_RATIO:
         axes.set_yscale("log")
         axes.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
         axes.yaxis.set_major_formatter("{x:g}")
@@ -108,10 +114,11 @@ def _scale(axes: Axes, shown: np.ndarray) -> None:
 
 
 def _right(found: xr.Dataset) -> float:
-    """The largest field to show [MV/m]: those asked for, and the limit points with some room."""
-    limits = 1.08 * found["limit_field"].values
-    asked = np.abs(np.atleast_1d(found["field"].values))
-    return float(max([*limits, *asked, 1.0])) / _MEGA
+    """The largest field or charge to show, in the unit that is shown: those asked for, limit points with some room."""
+    along = electrical_axis(found)
+    limits = 1.08 * found[f"limit_{along.name}"].values
+    asked = np.abs(np.atleast_1d(found[along.name].values))
+    return float(max([*limits, *asked, 1e-6 * along.size])) / along.size
 
 
 def _runs(keys) -> list[tuple[object, slice]]:
@@ -138,13 +145,18 @@ def _legend(found: xr.Dataset) -> list[Line2D]:
     return entries
 
 
+def _force(found: xr.Dataset) -> str:
+    return ("force P = " if "force" in found.coords else "") + forces_text(found)
+
+
 def _caption(found: xr.Dataset) -> str:
+    along = electrical_axis(found)
     limits = ", ".join(
-        f"{kind} at {field / _MEGA:.4g} MV/m"
-        for kind, field in zip(found["limit_kind"].values, found["limit_field"].values)
+        f"{kind} at {value / along.size:.4g} {along.unit}"
+        for kind, value in zip(found["limit_kind"].values, found[f"limit_{along.name}"].values)
     )
     return (
-        f"Equilibria of the membrane, {model_text(found)}, force P = {float(found['force']):g} N, dashpots "
+        f"Equilibria of the membrane, {model_text(found)}, {_force(found)}, dashpots "
         f"{found.attrs['dashpots']}. {limits[:1].upper()}{limits[1:]}{'. ' if limits else ''}"
         "Branches by continuation of the derived equations at rest, stability from the linearised motion."
     )
@@ -161,12 +173,12 @@ def model_text(data: xr.Dataset) -> str:
 
 
 def draw_critical_map(critical: xr.Dataset) -> Figure:
-    """The critical field over the force, and the stretch there.
+    """The critical field, or charge, over the force, and the stretch there.
 
     critical: of `delagrange.analysis.rest.critical_map.critical_map`
     """
     figure = new_figure(height=3.6)
-    stretched = bool(critical["stretch"].notnull().any())
+    stretched = bool(critical[_first(critical)].notnull().any())
     left, *others = figure.subplots(1, 1 + stretched, squeeze=False)[0]
     _draw_fields(left, critical)
     for right in others:
@@ -185,17 +197,23 @@ def draw_critical_map(critical: xr.Dataset) -> Figure:
 
 
 def _draw_fields(axes: Axes, critical: xr.Dataset) -> None:
-    force = critical["force"].values
+    force, along = critical["force"].values, electrical_axis(critical)
+    names = critical_names(along.electrical)
     for load, style in _LOADS.items():
-        here = critical[_FIELDS].sel(load=load) / _MEGA
+        here = critical[[along.name, *names.values()]].sel(load=load) / along.size
         colour = {"color": style["color"], "clip_on": False}
-        axes.plot(force, here["field"], **style)
-        _plot_known(axes, force, here["loss_of_tension_field"].values, **colour, **_TENSION)
-        _plot_known(axes, force, here["breakdown_field_nominal"].values, **colour, **_BREAKDOWN)
-        without = here["highest_field"].where(here["field"].isnull())
+        axes.plot(force, here[along.name], **style)
+        _plot_known(axes, force, here[names["tension"]].values, **colour, **_TENSION)
+        _plot_known(axes, force, here[names["breakdown"]].values, **colour, **_BREAKDOWN)
+        without = here[names["highest"]].where(here[along.name].isnull())
         _plot_known(axes, force, without.values, **colour, **_REACHED)
-    axes.set_ylabel(r"critical field $E$ [MV/m]")
+    axes.set_ylabel(rf"critical {along.long_name.removeprefix('nominal ')} ${along.symbol}$ [{along.unit}]")
     axes.set_ylim(bottom=0.0)
+
+
+def _first(critical: xr.Dataset) -> str:
+    """The variable of the first coordinate."""
+    return "stretch" if "stretch" in critical else coordinate_names(critical)[0]
 
 
 def _plot_known(axes: Axes, force: np.ndarray, values: np.ndarray, **style: object) -> None:
@@ -205,31 +223,32 @@ def _plot_known(axes: Axes, force: np.ndarray, values: np.ndarray, **style: obje
 
 
 def _draw_stretches(axes: Axes, critical: xr.Dataset) -> None:
+    name = _first(critical)
     for load, style in _LOADS.items():
-        axes.plot(critical["force"], critical["stretch"].sel(load=load), **style)
-    axes.set_ylabel(rf"critical stretch ${stretch_symbol('stretch')}$ [1]")
+        axes.plot(critical["force"], critical[name].sel(load=load), **style)
+    axes.set_ylabel(rf"critical {name.replace('_', ' ')} ${stretch_symbol(name)}$ [1]")
 
 
-_FIELDS = ["field", "highest_field", "loss_of_tension_field", "breakdown_field_nominal"]
 _TENSION = {"linestyle": (0, (1, 1.5)), "linewidth": 1.6}
 _BREAKDOWN = {"linestyle": (0, (6, 1.5, 1, 1.5)), "linewidth": 0.9}
 _REACHED = {"linestyle": "none", "marker": "^", "markersize": 3.5, "markerfacecolor": "none"}
 
 
 def _map_legend(critical: xr.Dataset) -> list[Line2D]:
-    there = critical[["field", "highest_field"]].notnull().any("force")
+    name, names = electrical_axis(critical).name, critical_names(electrical_axis(critical).electrical)
+    there = critical[[name, names["highest"]]].notnull().any("force")
     shown = [
-        load for load in _LOADS if bool(there["field"].sel(load=load) | there["highest_field"].sel(load=load))
+        load for load in _LOADS if bool(there[name].sel(load=load) | there[names["highest"]].sel(load=load))
     ]
     entries = [Line2D([], [], label=load, **_LOADS[load]) for load in shown]
-    if bool(critical["loss_of_tension_field"].notnull().any()):
+    if bool(critical[names["tension"]].notnull().any()):
         entries.append(Line2D([], [], color=BLACK, label="tension lost before", **_TENSION))
-    if bool(critical["breakdown_field_nominal"].notnull().any()):
+    if bool(critical[names["breakdown"]].notnull().any()):
         entries.append(Line2D([], [], color=BLACK, label="breakdown before", **_BREAKDOWN))
-    if bool((critical["field"].isnull() & critical["highest_field"].notnull()).any()):
-        entries.append(
-            Line2D([], [], color=BLACK, label="no limit point: last field within the limits", **_REACHED)
-        )
+    if bool((critical[name].isnull() & critical[names["highest"]].notnull()).any()):
+        last = electrical_axis(critical).electrical.stem
+        label = f"no limit point: last {last} within the limits"
+        entries.append(Line2D([], [], color=BLACK, label=label, **_REACHED))
     return entries
 
 
@@ -237,9 +256,10 @@ def _map_caption(critical: xr.Dataset) -> str:
     stretch = (
         " Critical stretch: at the limit point, or at the unstable equilibrium that the motion has to pass."
     )
+    stem = electrical_axis(critical).electrical.stem
     return (
-        f"Critical field of the membrane, {model_text(critical)}, over the force. Static: limit point of the "
-        "equilibrium under a slowly growing field; with relaxed dashpots slowly against relaxation as well. "
-        "Dynamic: field and force applied at once to the membrane at rest in the reference state."
-        + (stretch if bool(critical["stretch"].notnull().any()) else "")
+        f"Critical {stem} of the membrane, {model_text(critical)}, over the force. Static: limit point of the "
+        f"equilibrium under a slowly growing {stem}; with relaxed dashpots slowly against relaxation as well. "
+        f"Dynamic: {stem} and force applied at once to the membrane at rest in the reference state."
+        + (stretch if bool(critical[_first(critical)].notnull().any()) else "")
     )

@@ -7,18 +7,19 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from delagrange.figures.electrical_axis import AXES, electrical_axis
 from delagrange.figures.equilibrium_figure import model_text
 from delagrange.figures.style import BLACK, BLUE, ORANGE, SKY_BLUE, VERMILION, caption, new_figure
 
 _LABELS = {
-    "field": (r"nominal field $E$ [MV/m]", 1e6),
+    **{along.name: (along.label, along.size) for along in AXES.values()},
     "force": (r"force $P$ [N]", 1.0),
     "held_stretch": (r"held stretch $\lambda_\mathrm{2p}$ [1]", 1.0),
 }
 _COLOURS = (BLACK, VERMILION, BLUE, ORANGE, SKY_BLUE)
 _STYLES = ("-", (0, (4, 1.5)), (0, (1, 1.5)))
 _SHORT = {
-    "field": ("$E$", "MV/m", 1e6),
+    **{along.name: (f"${along.symbol}$", along.unit, along.size) for along in AXES.values()},
     "force": ("$P$", "N", 1.0),
     "held_stretch": (r"$\lambda_\mathrm{2p}$", "", 1.0),
 }
@@ -48,7 +49,7 @@ def draw_modes(found: xr.Dataset) -> Figure:
     axes.set_ylim(bottom=0.0)
     axes.margins(x=0.0)
     halved = axes.secondary_yaxis("right", functions=(lambda value: value / 2, lambda value: 2 * value))
-    halved.set_ylabel(r"resonant field frequency $f_n / 2$ [Hz]")
+    halved.set_ylabel(rf"resonant {electrical_axis(found).electrical.stem} frequency $f_n / 2$ [Hz]")
     axes.tick_params(right=False)
     axes.legend(loc="best", ncols=1 + (len(axes.get_lines()) > 4))
     caption(figure, _caption(found))
@@ -84,14 +85,20 @@ def _caption(found: xr.Dataset) -> str:
     ended = ""
     if bool(found["frequency"].isnull().any()):
         ended = "Where a curve ends there is no equilibrium, as beyond pull-in. "
+    along = electrical_axis(found)
     single = [
         f"{symbol} = {float(found[name]) / size:g} {unit}"
-        for name, (symbol, unit, size) in {"force": ("P", "N", 1.0), "field": ("E", "MV/m", 1e6)}.items()
-        if found[name].ndim == 0
+        for name, (symbol, unit, size) in {
+            "force": ("P", "N", 1.0),
+            "force_1": ("P₁", "N", 1.0),
+            "force_2": ("P₂", "N", 1.0),
+            along.name: (along.symbol, along.unit, along.size),
+        }.items()
+        if name in found and found[name].ndim == 0
     ]
     at = "".join(f", {text}" for text in single)
     return (
         f"Natural frequencies of the membrane, {model_text(found)}{at}, about its stable equilibrium, dashpots "
-        f"{found.attrs['dashpots']}. {ended}The field enters squared: without bias it excites a mode at half the "
-        "natural frequency (right axis); with a bias, as a force does, at the natural frequency as well."
+        f"{found.attrs['dashpots']}. {ended}The {along.electrical.stem} enters squared: without bias it excites a "
+        "mode at half the natural frequency (right axis); with a bias, as a force does, at that frequency as well."
     )

@@ -24,6 +24,7 @@ _COLOURS = (VERMILION, BLUE, GREEN, ORANGE, SKY_BLUE, PURPLE)
 _LABELLED = 9  # strongest lines that get their integers
 _CLEAR = 0.035  # of the width of the panel between two labels
 _SETTLED = 0.12  # of the time, before which the running exponents do not set the axis
+_ZOOM = 0.1  # of the largest exponent, the least that the axis of exponents spans
 _FAINTEST = 1e-6  # of the highest amplitude, below which nothing is drawn
 _FAINTEST_BAND = 1e-4  # the same of a broad band
 _STILL = 1e-8  # amplitude [1] below which nothing moves
@@ -98,7 +99,8 @@ def _draw_exponents(axes: Axes, motion: xr.Dataset) -> None:
     low, high = np.min(settled), np.max(settled)
     if motion["verdict"].item() != "chaotic" and high > 0 and low > -4 * high:
         _draw_proportional(axes, time)
-    room = 0.08 * (high - low) or 1.0
+    least = _ZOOM * max(abs(low), abs(high))  # exponents that agree are not to look as if they did not
+    room = max(0.08 * (high - low), (least - (high - low)) / 2) or 1.0
     axes.set_ylim(low - room, high + room)
     axes.set_xlim(0.0, 1.02 * time[-1])
 
@@ -109,7 +111,7 @@ def _draw_proportional(axes: Axes, time: np.ndarray) -> None:
     mean = np.mean(2 * np.sin(np.pi * phases) ** 2 / (0.25 + 0.75 * phases))
     label = "growth in proportion to time"
     axes.plot(time, mean / time, color=BLACK, linestyle=(0, (4, 2)), linewidth=0.9, label=label)
-    axes.legend(loc="upper right")
+    axes.legend(loc="lower right", bbox_to_anchor=(0.97, 0.0))  # beside the bars of the uncertainty
 
 
 def _draw_spectrum(axes: Axes, motion: xr.Dataset) -> None:
@@ -167,7 +169,8 @@ def combination(integers: np.ndarray) -> str:
 
 
 def _caption(motion: xr.Dataset) -> str:
-    bases, load = motion["base_frequencies"].values, motion.attrs["load"] or "no load"
+    bases = motion["base_frequencies"].values
+    load = motion.attrs["load"].replace("_", " ") or "no load"
     if motion["verdict"].item() in _REGULAR:
         named = ", ".join(f"f{place} = {value:.7g} Hz" for place, value in enumerate(bases, start=1))
         lines = f", grey; its lines, blue, are made of {named}"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
@@ -38,10 +39,18 @@ X_LABELS = {
     "force": r"force $P$ [N]",
     "field_amplitude": r"amplitude of the field $E_0$ [MV/m]",
     "field_bias": r"bias of the field $E_\mathrm{b}$ [MV/m]",
+    "charge_amplitude": r"amplitude of the charge $D_0$ [mC/m$^2$]",
+    "charge_bias": r"bias of the charge $D_\mathrm{b}$ [mC/m$^2$]",
 }
-_X_SIZES = {"frequency": 1.0, "force": 1.0, "field_amplitude": 1e6, "field_bias": 1e6}
-_SYMBOLS = {"force": "P", "field_amplitude": "E₀", "field_bias": "E_b", "frequency": "f"}
-_UNITS = {"force": "N", "field_amplitude": "MV/m", "field_bias": "MV/m", "frequency": "Hz"}
+_SHOWN = {
+    "force": ("P", "N", 1.0),
+    "field_amplitude": ("E₀", "MV/m", 1e6),
+    "charge_amplitude": ("D₀", "mC/m²", 1e-3),
+    "field_bias": ("E_b", "MV/m", 1e6),
+    "charge_bias": ("D_b", "mC/m²", 1e-3),
+    "frequency": ("f", "Hz", 1.0),
+}  # symbol, unit that is shown, and its size in SI units
+_X_SIZES = {name: size for name, (_, _, size) in _SHOWN.items()}
 _LINES = {
     NEUTRAL: {"color": BLUE, "linestyle": "-", "label": "periodic, neutral"},
     STABLE: {"color": BLUE, "linestyle": "-", "label": "periodic, stable"},
@@ -80,7 +89,7 @@ def draw_steady(
             _draw_sweep(axes, sweep)
         _draw_bifurcations(axes, steady, varied)
         panel_letter(axes, letter)
-        axes.set_ylabel(notation_of(steady).amplitude_label)
+        axes.set_ylabel(_amplitude_label(steady))
         axes.margins(x=0.0)
     if not steady.sizes["point"]:
         _say_empty(all_axes[0])
@@ -96,30 +105,36 @@ def draw_steady(
     return figure
 
 
-def _say_empty(axes: Axes) -> None:
-    axes.text(0.5, 0.5, "no periodic motion found", transform=axes.transAxes, ha="center", va="center")
+def _say_empty(axes: Axes, why: str = "no periodic motion found") -> None:
+    axes.text(0.5, 0.5, why, transform=axes.transAxes, ha="center", va="center")
 
 
 def draw_transient(transient: xr.Dataset, varied: str) -> Figure:
     """The transient amplitude alone."""
     figure = new_figure(height=3.4)
     axes = figure.subplots()
-    axes.plot(transient[varied] / _X_SIZES[varied], transient["amplitude"], color=BLACK)
+    x = transient[varied].values / _X_SIZES[varied]
+    axes.plot(x, transient["amplitude"], color=BLACK)
     axes.set_xlabel(X_LABELS[varied])
-    axes.set_ylabel(notation_of(transient).amplitude_label)
+    axes.set_ylabel(_amplitude_label(transient))
     axes.margins(x=0.0)
+    if not transient["amplitude"].notnull().any():
+        axes.set_xlim(x.min(), x.max())
+        _say_empty(axes, "every run was lost")
     axes.set_ylim(bottom=0.0)
     axes.set_title(_transient_load(transient, varied), loc="right", fontsize=8.0)
     caption(figure, _transient_text(transient))
     return figure
 
 
-def notation_of(data: xr.Dataset):
-    """How the quantities of the model are written; as plain stretches where it is none of the paper's."""
+def _amplitude_label(data: xr.Dataset) -> str:
+    """As the paper writes the stretch of its load cases; of any other, the symbol of the first coordinate."""
     load_case = str(data.attrs["load_case"])
-    return next(
-        (value for name, value in NOTATION.items() if load_case.startswith(name)), NOTATION["equal_biaxial"]
-    )
+    for name, notation in NOTATION.items():
+        if load_case.startswith(name):
+            return notation.amplitude_label
+    symbol, unit = data["amplitude"].attrs["symbol"], data["amplitude"].attrs["units"]
+    return f"amplitude of ${symbol.replace('λ', chr(92) + 'lambda')}$ [{unit}]"
 
 
 def _draw_branches(axes: Axes, steady: xr.Dataset, varied: str) -> None:
@@ -211,21 +226,36 @@ def _entries(steady: xr.Dataset, transient: xr.Dataset | None, sweeps: Sequence[
 
 def _load_text(steady: xr.Dataset) -> str:
     """`P = 0.5 N, E₀ = 1 MV/m`, of what does not vary."""
-    parts = []
-    for name, symbol in _SYMBOLS.items():
-        if name != steady.attrs["varied"] and steady.sizes["point"]:
-            value = float(steady[name][0]) / _X_SIZES[name]
-            if value != 0 or name == "force":
-                parts.append(f"{symbol} = {value:g} {_UNITS[name]}")
+    parts = _other_forces(steady)
+    for name, (symbol, unit, size) in _SHOWN.items():
+        if name != steady.attrs["varied"] and name in steady and steady.sizes["point"]:
+            value = float(steady[name][0]) / size
+            if value != 0 or (name == "force" and not parts):
+                parts.append(f"{symbol} = {value:g} {unit}")
     if "held_stretch" in steady.attrs:
         parts.append(f"λ₂ held at {steady.attrs['held_stretch']:g}")
     return f"{steady.attrs['model'].replace('_', ' ')}: {', '.join(parts)}"
 
 
+def _other_forces(data: xr.Dataset) -> list[str]:
+    """`P₁ = 0.1 N` of a membrane that has a force along each axis, instead of the one force of the others."""
+    numbers = {"force_1": "P₁", "force_2": "P₂"}
+    values = {name: _constant(data, name) for name in numbers}
+    return [f"{numbers[name]} = {value:g} N" for name, value in values.items() if value is not None]
+
+
+def _constant(data: xr.Dataset, name: str) -> float | None:
+    """The value of an input that is constant, from the coordinates or from what is said of its drive."""
+    if name in data.coords:
+        return float(data.coords[name])
+    found = re.fullmatch(r"Constant\(value=(.*)\)", str(data.attrs.get(f"{name}_drive", "")))
+    return float(found[1]) if found else None
+
+
 def _transient_load(transient: xr.Dataset, varied: str) -> str:
-    parts = [
-        f"{_SYMBOLS[name]} = {float(transient[name]) / _X_SIZES[name]:g} {_UNITS[name]}"
-        for name in _SYMBOLS
+    parts = _other_forces(transient) + [
+        f"{symbol} = {float(transient[name]) / size:g} {unit}"
+        for name, (symbol, unit, size) in _SHOWN.items()
         if name != varied and name in transient.coords and (float(transient[name]) != 0 or name == "force")
     ]
     return f"{transient.attrs['model'].replace('_', ' ')}: {', '.join(parts)}"

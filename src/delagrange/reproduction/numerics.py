@@ -73,15 +73,3 @@ PAPER_LIKE = Numerics(
 )
 
 NUMERICS = (ACCURATE, PAPER_LIKE)
-
-
-def numerics_named(name: str) -> Numerics:
-    """The numerics of that name.
-
-    Raises:
-        ValueError: no such name.
-    """
-    for numerics in NUMERICS:
-        if numerics.name == name:
-            return numerics
-    raise ValueError(f"numerics must be one of {', '.join(n.name for n in NUMERICS)}; got {name!r}")

@@ -15,8 +15,9 @@ from delagrange.analysis.motion.lyapunov import observed, spectrum_variables, st
 from delagrange.analysis.motion.motion import Motion, make_motion
 from delagrange.analysis.motion.observation import Observation
 from delagrange.analysis.motion.verdict import Verdict, decide, lost
-from delagrange.dashpots import EVOLVING, FROZEN, RELAXED, dashpot_places
+from delagrange.dashpots import EVOLVING, FROZEN, RELAXED, dashpot_places, is_damped
 from delagrange.drive import Drive
+from delagrange.inputs import Inputs
 from delagrange.loss import COMPLETED, Limits
 from delagrange.parameters import SHENG_2015, Parameters
 
@@ -32,13 +33,14 @@ def classify(
     *,
     force: Drive | float = 0.0,
     field: Drive | float = 0.0,
+    inputs: Inputs | None = None,
     duration: float | None = None,
     transient: float | None = None,
     formulation: str | None = None,
     lateral_dashpot: str | None = None,
     held_stretch: float | None = None,
     parameters: Parameters = SHENG_2015,
-    initial_state: Mapping[str, float] | None = None,
+    initial_state: Mapping[str, float] | str | None = None,
     dashpots: str = FROZEN,
     limits: Limits = Limits(),  # noqa: B008  (frozen)
     tolerance: float = 1e-11,
@@ -57,7 +59,7 @@ def classify(
     "undecided", with the horizon that would do.
 
     Args:
-        model, force, field, formulation, lateral_dashpot, held_stretch, parameters, limits, material: as
+        model, force, field, inputs, formulation, lateral_dashpot, held_stretch, parameters, limits, material: as
             for `simulate`; the drives are constant or sines. A field without bias enters squared and
             forces at twice its frequency.
         duration: time observed [s], at least 16 periods of the forcing; left out, 8000 periods of the fastest
@@ -65,7 +67,8 @@ def classify(
         transient: time [s] left out before; if left out itself, none with frozen dashpots (nothing is
             damped), else until volumes have contracted by exp(-30) in each direction, where that takes no more
             than four times the duration, and none where it takes longer.
-        initial_state: values of state variables at t = 0 by name; the rest is the reference state.
+        initial_state: values of state variables at t = 0 by name; the rest is the reference state. Or "equilibrium",
+            at rest and relaxed under the forces alone, as for `simulate`.
         dashpots: "frozen" where they stand at t = 0; "evolving" with the motion; or "relaxed": evolving, and
             the transient is waited for however long it is.
         tolerance: of the local error, in units of typical sizes of the state.
@@ -84,7 +87,7 @@ def classify(
             allowed. More than 2e7 samples are refused: a drive far slower than the membrane takes as many.
     """
     motion = make_motion(
-        model, force, field, formulation=formulation, lateral_dashpot=lateral_dashpot,
+        model, force, field, inputs=inputs, formulation=formulation, lateral_dashpot=lateral_dashpot,
         held_stretch=held_stretch, parameters=parameters, initial_state=initial_state, dashpots=dashpots,
         choices=(FROZEN, EVOLVING, RELAXED), limits=limits, tolerance=tolerance, engine=engine,
         material=material,
@@ -108,7 +111,7 @@ def _transient(motion: Motion, given: float | None, periods: int) -> tuple[int, 
     period = motion.forcing.period
     if given is not None:
         return motion.transient_periods(given), 0.0
-    if motion.dashpots == FROZEN:
+    if motion.dashpots == FROZEN and not is_damped(motion.path.problem):
         return 0, 0.0
     needed = _relaxation(motion)
     if motion.dashpots == RELAXED or needed <= _AFFORDABLE * periods * period:
@@ -125,7 +128,8 @@ def _relaxation(motion: Motion) -> float:
     if pilot.status != COMPLETED:
         return 0.0
     places = np.arange(len(motion.start))[dashpot_places(motion.model)]
-    places = places if len(places) else motion.moving
+    flows = len(places) > 0 and motion.dashpots != FROZEN
+    places = places if flows else motion.moving
     slopes = [motion.path.problem.jacobian(time, state) for time, state in zip(pilot.times, pilot.states)]
     contraction = -float(np.mean(np.sum([np.diagonal(slope)[places] for slope in slopes], axis=1)))
     return _CONTRACTION * len(motion.moving) / contraction if contraction > 0 else 0.0

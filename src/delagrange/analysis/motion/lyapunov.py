@@ -19,6 +19,7 @@ from delagrange.analysis.motion.observation import Observation, observe
 from delagrange.dashpots import EVOLVING, FROZEN
 from delagrange.dataset import status_time_variable, status_variable, variable
 from delagrange.drive import Drive
+from delagrange.inputs import Inputs
 from delagrange.loss import Limits
 from delagrange.parameters import SHENG_2015, Parameters
 from delagrange.progress import progress_bar
@@ -101,6 +102,7 @@ def lyapunov_spectrum(
     duration: float,
     force: Drive | float = 0.0,
     field: Drive | float = 0.0,
+    inputs: Inputs | None = None,
     transient: float = 0.0,
     formulation: str | None = None,
     lateral_dashpot: str | None = None,
@@ -122,7 +124,7 @@ def lyapunov_spectrum(
     averages out then.
 
     Args:
-        model, force, field, formulation, lateral_dashpot, held_stretch, parameters, limits, material: as
+        model, force, field, inputs, formulation, lateral_dashpot, held_stretch, parameters, limits, material: as
             for `simulate`; the drives are constant or sines.
         duration: time observed [s], after
         transient: time [s] that is left out before; both are rounded to periods of the forcing, of which at
@@ -144,7 +146,7 @@ def lyapunov_spectrum(
             allowed.
     """
     motion = make_motion(
-        model, force, field, formulation=formulation, lateral_dashpot=lateral_dashpot,
+        model, force, field, inputs=inputs, formulation=formulation, lateral_dashpot=lateral_dashpot,
         held_stretch=held_stretch, parameters=parameters, initial_state=initial_state, dashpots=dashpots,
         choices=(FROZEN, EVOLVING), limits=limits, tolerance=tolerance, engine=engine, material=material,
     )  # fmt: skip

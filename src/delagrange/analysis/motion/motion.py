@@ -11,12 +11,15 @@ import numpy as np
 from delagrange import checks
 from delagrange.analysis.forcing import Forcing, forcing
 from delagrange.analysis.motion.observation import moving_places
-from delagrange.dashpots import FROZEN, frozen, given_state
+from delagrange.dashpots import FROZEN, frozen, starting_state
 from delagrange.dataset import run_attributes
 from delagrange.drive import Drive
 from delagrange.flow import Flow, Path, drive_numbers, typical_sizes
 from delagrange.flows import resolve_flow
+from delagrange.initial import EQUILIBRIUM_MEANING, is_equilibrium
+from delagrange.inputs import Inputs
 from delagrange.loss import Limits
+from delagrange.model_material import material_of
 from delagrange.models import check_offers, load_model
 from delagrange.parameters import Parameters
 from delagrange.problem import Problem, input_name, make_problem
@@ -65,11 +68,12 @@ def make_motion(
     force: Drive | float,
     field: Drive | float,
     *,
+    inputs: Inputs | None,
     formulation: str | None,
     lateral_dashpot: str | None,
     held_stretch: float | None,
     parameters: Parameters,
-    initial_state: Mapping[str, float] | None,
+    initial_state: Mapping[str, float] | str | None,
     dashpots: str,
     choices: tuple[str, ...],
     limits: Limits,
@@ -87,12 +91,14 @@ def make_motion(
     checks.choice("dashpots", dashpots, choices)
     checks.instance("limits", limits, Limits)
     tolerance = checks.within("tolerance", tolerance, "1", *TOLERANCE_RANGE)
-    problem = make_problem(module, parameters, material, held_stretch, force, field)
+    problem = make_problem(module, parameters, material, held_stretch, force, field, inputs)
     _check_single(problem, initial_state)
-    start = given_state(problem, initial_state)
+    start = starting_state(problem, initial_state, limits)
     run = frozen(problem) if dashpots == FROZEN else problem
     path = Path(run, typical_sizes(run), tolerance, limits)
-    attributes = run_attributes(problem, parameters.replace(**material), limits)
+    attributes = run_attributes(problem, material_of(module, parameters).replace(**material), limits)
+    if is_equilibrium(module, initial_state):
+        attributes["initial_state"] = EQUILIBRIUM_MEANING
     return Motion(
         path,
         resolve_flow(run, engine),
@@ -113,15 +119,15 @@ def load_text(problem: Problem) -> str:
 
 
 def _drive_text(numbers: np.ndarray, unit: str) -> str:
-    bias, amplitude, frequency, phase = (float(number) for number in numbers)
+    bias, amplitude, frequency, phase = (float(f"{number:.6g}") for number in numbers)
     if amplitude == 0.0:
         return with_unit(bias, unit)
     start = f"{with_unit(bias, unit)} + " if bias else ""
     lag = f" {'+' if phase > 0 else '-'} {abs(phase):.4g} rad" if phase else ""
-    return f"{start}{with_unit(amplitude, unit)} sin(2π {frequency:.6g} Hz t{lag})"
+    return f"{start}{with_unit(amplitude, unit)} sin(2π {frequency:g} Hz t{lag})"
 
 
-def _check_single(problem: Problem, initial_state: Mapping[str, float] | None) -> None:
+def _check_single(problem: Problem, initial_state: Mapping[str, float] | str | None) -> None:
     """Refuse arrays: one motion is judged at a time."""
     model = problem.model
     entries = [*zip(model.PARAMETERS, problem.parameters), *zip(model.INPUTS, problem.inputs(0.0))]

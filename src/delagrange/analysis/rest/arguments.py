@@ -11,17 +11,29 @@ import numpy as np
 
 from delagrange import checks
 from delagrange.dataset import run_attributes, variable
+from delagrange.drive import Drive
 from delagrange.grid import Grid, make_grid
-from delagrange.initial import PREFIX, checked_initial
+from delagrange.initial import PREFIX, checked_initial, is_stretch
+from delagrange.inputs import (
+    CHARGE_DENSITY,
+    ELECTRIC_FIELD,
+    FORCE,
+    ElectricalInput,
+    Inputs,
+    electrical_input,
+    has_input,
+    named_inputs,
+)
 from delagrange.loss import Limits
+from delagrange.material import Material
+from delagrange.model_material import material_of
 from delagrange.models import load_model
-from delagrange.parameters import CHANGEABLE_UNITS, Parameters, check_material_names
+from delagrange.parameters import Parameters
 from delagrange.problem import Problem, make_problem
 
 FROZEN_MEANING = "frozen: the dashpots stay as in the reference state or in initial_state"
 RELAXED_MEANING = "relaxed: the dashpots are at rest, too"
-_UNITS = {"force": "N", "held_stretch": "1", **CHANGEABLE_UNITS}
-_NO_MATERIAL = ("force", "held_stretch")
+_UNITS = {"force": "N", "held_stretch": "1"}
 _LONG_NAMES = {
     "force": "applied force",
     "held_stretch": "stretch at which axis 2 is held",
@@ -53,24 +65,34 @@ class Cases:
         named = {name: ((name,), values) for name, values in self.grid.axes.items()}
         named |= {name: ((), value) for name, value in self.grid.single.items()}
         return {
-            name: variable(dimensions, values, _UNITS[name], _LONG_NAMES.get(name, name.replace("_", " ")))
+            name: variable(dimensions, values, self.grid.units[name], self._long_name(name))
             for name, (dimensions, values) in named.items()
         }
 
+    def _long_name(self, name: str) -> str:
+        meanings = {entry.name: entry.meaning for entry in self.model.INPUTS if entry.name != FORCE}
+        return (_LONG_NAMES | meanings).get(name, name.replace("_", " "))
+
     def attributes(self, dashpots: str) -> dict[str, object]:
         """What all cases have in common."""
-        common = run_attributes(self.first_problem(), self.parameters, self.limits)
+        common = run_attributes(self.first_problem(), material_of(self.model, self.parameters), self.limits)
         for name in (*self.grid.axes, *(f"{name}_units" for name in self.grid.axes)):
             common.pop(name, None)
-        common.pop("nominal_electric_field_drive", None)
-        common.pop("force_drive", None)
+        for entry in self.model.INPUTS:
+            common.pop(f"{entry.name}_drive", None)
         starts = {PREFIX + name: float(value) for name, value in (self.initial_state or {}).items()}
-        return common | {"dashpots": dashpots} | starts
+        about = {
+            "varied_input": electrical_input(self.model).name,
+            "coordinates": coordinates_text(self.model),
+        }
+        return common | {"dashpots": dashpots} | starts | about
 
     def _problem(self, values: dict[str, float]) -> Problem:
         given = dict(values)
-        held, force = given.pop("held_stretch", None), given.pop("force")
-        return make_problem(self.model, self.parameters, given, held, force, 0.0)
+        held, force = given.pop("held_stretch", None), given.pop(FORCE, 0.0)
+        names = [entry.name for entry in self.model.INPUTS]
+        inputs = {name: given.pop(name) for name in names if name in given}
+        return make_problem(self.model, self.parameters, given, held, force, 0.0, inputs)
 
 
 def make_cases(
@@ -81,21 +103,29 @@ def make_cases(
     initial_state: Mapping[str, float] | None,
     limits: Limits,
     values: Mapping[str, object],
+    inputs: Inputs | None = None,
 ) -> Cases:
     """The cases over `values`, each a number or a one-dimensional array: force, held stretch (or None), material.
+
+    inputs: values of inputs other than the electrical one by name, numbers or arrays as well
 
     Raises:
         ValueError: an unknown name, a bad value, or values that the model has no place for.
     """
     module = load_model(model, formulation, lateral_dashpot)
     checks.instance("limits", limits, Limits)
-    checks.instance("parameters", parameters, Parameters)
+    material = material_of(module, parameters)
     given = {name: value for name, value in values.items() if name != "held_stretch" or value is not None}
-    check_material_names({name: value for name, value in given.items() if name not in _NO_MATERIAL})
-    checked = {name: _checked(name, value) for name, value in given.items()}
+    others = _other_inputs(module, inputs, given[FORCE])
+    material.check_names({name: value for name, value in given.items() if name not in _UNITS})
+    checked = {name: _checked(name, value, material) for name, value in given.items()}
     checked_initial(module, initial_state)
+    if FORCE in others or (_is_zero(checked[FORCE]) and not has_input(module, FORCE)):
+        del checked[FORCE]
+    units = {entry.name: entry.unit for entry in module.INPUTS} | _UNITS | dict(material.units)
+    checked = {name: checks.finite(name, value, units[name]) for name, value in others.items()} | checked
     single = {name: _one_number(name, value) for name, value in (initial_state or {}).items()}
-    cases = Cases(module, parameters, make_grid(checked, _UNITS, ""), single, limits)
+    cases = Cases(module, parameters, make_grid(checked, units, ""), single, limits)
     cases.first_problem()
     return cases
 
@@ -108,19 +138,94 @@ def single_case(cases: Cases, purpose: str) -> Cases:
     """
     for name, values in cases.grid.axes.items():
         raise ValueError(
-            f"{name} must be a single number for {purpose}, got {len(values)} values in {_UNITS[name]}"
+            f"{name} must be a single number for {purpose}, got {len(values)} values in {cases.grid.units[name]}"
         )
     return cases
 
 
+def without_electrical(model: ModuleType, inputs: Inputs | None) -> tuple[Inputs | None, object]:
+    """The other inputs given by name, and the values of the charge among them; None where it is not.
+
+    Raises:
+        ValueError: the field, which has an argument of its own; a drive; a model without such an input; or as
+            `delagrange.inputs.named_inputs`.
+    """
+    given, electrical = named_inputs(model, inputs), electrical_input(model)
+    if electrical is ELECTRIC_FIELD and electrical.name in given:
+        raise ValueError(f"{electrical.argument} is what varies here, and is not given by inputs")
+    value = given.pop(electrical.name, None)
+    if isinstance(value, Drive):
+        raise ValueError(f"inputs {electrical.name} must be a number or an array of them here, got {value}")
+    return (None if inputs is None else given), value
+
+
+def refuse_electrical(model: ModuleType, inputs: Inputs | None) -> None:
+    """Refuse the electrical input where an analysis looks for its value.
+
+    Raises:
+        ValueError: it is given; or as `without_electrical`.
+    """
+    _, value = without_electrical(model, inputs)
+    if value is not None:
+        raise ValueError(f"{electrical_input(model).name} is what varies here, and is not given by inputs")
+
+
+def electrical_name(model: ModuleType, field: object) -> ElectricalInput:
+    """The electrical input of a model.
+
+    Raises:
+        ValueError: a field that is given to a model under charge control; or it has no electrical input.
+    """
+    electrical = electrical_input(model)
+    if electrical is CHARGE_DENSITY and field is not None and not _is_zero(field):
+        raise ValueError(
+            f"the model {model.MODEL} is under charge control and has no field; "
+            f'give inputs={{"{electrical.name}": values in {electrical.unit}}} (--input on the command line)'
+        )
+    return electrical
+
+
 def stretch_alias(model: ModuleType) -> dict[str, str]:
-    """`{"stretch": name}` where the first coordinate has another name."""
-    name = model.STATE[0].name
-    return {} if name == "stretch" else {"stretch": name}
+    """`{"stretch": name}` where the first coordinate is a stretch with another name."""
+    first = model.STATE[0]
+    return {"stretch": first.name} if first.name != "stretch" and is_stretch(first) else {}
 
 
-def _checked(name: str, value: object) -> float | np.ndarray:
-    check = checks.finite if name == "force" else checks.positive
+def first_coordinate(model: ModuleType) -> str:
+    """`stretch`, or the name of the first coordinate where that is none."""
+    first = model.STATE[0]
+    return "stretch" if is_stretch(first) else first.name
+
+
+def coordinates_text(model: ModuleType) -> str:
+    """The names of the coordinates in one line."""
+    return ", ".join(entry.name for entry in model.STATE[: model.COORDINATE_COUNT])
+
+
+def _other_inputs(model: ModuleType, inputs: Inputs | None, force: object) -> dict[str, object]:
+    """The inputs given by name.
+
+    Raises:
+        ValueError: a drive; the electrical input; or the force twice.
+    """
+    refuse_electrical(model, inputs)
+    given = named_inputs(model, inputs)
+    for name, value in given.items():
+        if isinstance(value, Drive):
+            raise ValueError(f"inputs {name} must be a number or an array of them here, got {value}")
+    if FORCE in given and not _is_zero(force):
+        raise ValueError("force is given by itself and in inputs as well; give one")
+    return given
+
+
+def _is_zero(value: object) -> bool:
+    return np.ndim(value) == 0 and value == 0
+
+
+def _checked(name: str, value: object, material: Material) -> float | np.ndarray:
+    if name in material.units:
+        return material.checked(name, value)
+    check = checks.finite if name == FORCE else checks.positive
     return check(name, value, _UNITS[name])
 
 

@@ -1,4 +1,4 @@
-"""All branches of equilibria over the field: the one from the unloaded membrane, and whatever else there is."""
+"""All branches of equilibria over field or charge: the one from the unloaded membrane, and whatever else there is."""
 
 from __future__ import annotations
 
@@ -9,17 +9,18 @@ import numpy as np
 from delagrange.analysis.continuation import Lost, Point, parameter_of
 from delagrange.analysis.rest.pieces import FOLD, Piece, locate_on, point_at, trace
 from delagrange.analysis.rest.seeds import equilibria_at, same
-from delagrange.analysis.rest.statics import FIELD, FORCE, Statics, typical_field, unloaded
+from delagrange.analysis.rest.statics import Statics, typical_electrical, unloaded
 from delagrange.analysis.rest.vibration import growing_directions, stability_margin
+from delagrange.inputs import input_name
 
-_FARTHEST = 20.0  # typical fields: as far as a curve is followed, to see where it ends
+_FARTHEST = 20.0  # typical fields, or charges: as far as a curve is followed, to see where it ends
 _SEED_FIELDS = {1: 9, 2: 5}  # at which equilibria are looked for, by the number of coordinates
 
 PULL_IN, SNAP_THROUGH, SNAP_BACK, TURNING = "pull-in", "snap-through", "snap-back", "turning point"
 LIMIT_MEANING = (
-    f"{PULL_IN}: a stable branch ends at a maximum of the field, beyond which it has nowhere to go; "
+    f"{PULL_IN}: a stable branch ends at a maximum of the electrical input, beyond which it has nowhere to go; "
     f"{SNAP_THROUGH}: it ends at a maximum, and another stable branch goes on beyond; "
-    f"{SNAP_BACK}: a stable branch ends at a minimum of the field; "
+    f"{SNAP_BACK}: a stable branch ends at a minimum of the electrical input; "
     f"{TURNING}: an unstable branch turns back"
 )
 
@@ -32,41 +33,53 @@ class LimitPoint:
     kind: str
 
 
-def range_of_field(statics: Statics, largest: float) -> float:
-    """Up to which field [V/m] curves are followed: `largest`, or far beyond where anything happens."""
-    return max(largest, _FARTHEST * typical_field(statics))
+def range_of_input(statics: Statics, largest: float) -> float:
+    """Up to which field [V/m], or charge [C/m^2], curves are followed: `largest`, or far beyond all that happens."""
+    return max(largest, _FARTHEST * typical_electrical(statics))
 
 
 def at_zero_field(statics: Statics) -> np.ndarray:
-    """x under the force alone, reached from the unloaded membrane as the force grows from zero.
+    """x under the forces alone, reached from the unloaded membrane as each grows from zero, in the model's order.
 
     Raises:
-        Lost: the membrane does not stand that force.
+        Lost: the membrane does not stand them.
     """
-    x = unloaded(statics)
-    names = [entry.name for entry in statics.problem.model.INPUTS]
-    force = statics.inputs[names.index(FORCE)] if FORCE in names else 0.0
-    if force == 0:
-        return x
-    under_force = statics.varying(FORCE, **{FIELD: 0.0})
-    for piece in trace(under_force, x, min(force, 0.0), max(force, 0.0)):
-        if piece.covers(0.0) and piece.covers(force) and same(point_at(under_force, piece, 0.0).x, x):
-            return np.append(point_at(under_force, piece, force).x[:-1], 0.0)
-    raise Lost(f"no equilibrium without field is reached as the force grows from 0 N to {force:g} N")
+    x, electrical = unloaded(statics), statics.electrical.name
+    growing = {
+        entry.name: value
+        for entry, value in zip(statics.problem.model.INPUTS, statics.inputs)
+        if entry.name != electrical and value != 0
+    }
+    grown = {electrical: 0.0} | dict.fromkeys(growing, 0.0)
+    for name, value in growing.items():
+        x = _grown(statics.varying(name, **grown), x, float(value))
+        grown[name] = value
+    return np.append(x[:-1], 0.0)
+
+
+def _grown(statics: Statics, x: np.ndarray, value: float) -> np.ndarray:
+    """x at a value of the varied input, reached from x without it as it grows from zero."""
+    x = np.append(x[:-1], 0.0)
+    for piece in trace(statics, x, min(value, 0.0), max(value, 0.0)):
+        if piece.covers(0.0) and piece.covers(value) and same(point_at(statics, piece, 0.0).x, x):
+            return point_at(statics, piece, value).x
+    name, unit = input_name(statics.name), statics.problem.model.INPUTS[statics.varied].unit
+    without = f"no equilibrium without {statics.electrical.text} is reached"
+    raise Lost(f"{without} as the {name} grows from 0 {unit} to {value:g} {unit}")
 
 
 def connected_pieces(statics: Statics, largest: float) -> list[Piece]:
-    """The curve of the membrane under its force as the field grows from zero; the first piece begins there.
+    """The curve of the membrane under its force as field or charge grows from zero; the first piece begins there.
 
     Raises:
-        Lost: no equilibrium without field.
+        Lost: no equilibrium without it.
     """
-    field_varies = statics.varying(FIELD)
-    return trace(field_varies, at_zero_field(statics), 0.0, range_of_field(statics, largest))
+    electrical_varies = statics.varying(statics.electrical.name)
+    return trace(electrical_varies, at_zero_field(statics), 0.0, range_of_input(statics, largest))
 
 
 def all_pieces(statics: Statics, largest: float) -> list[Piece]:
-    """Every piece found over fields from 0 to `largest` [V/m], the one from the unloaded membrane first."""
+    """Every piece found from 0 to `largest` [V/m], or [C/m^2] of charge, the one from the unloaded membrane first."""
     try:
         pieces = connected_pieces(statics, largest)
     except Lost:
@@ -75,8 +88,17 @@ def all_pieces(statics: Statics, largest: float) -> list[Piece]:
     for value in np.linspace(0.0, largest, count) if largest > 0 else [0.0]:
         for x in equilibria_at(statics, float(value)):
             if not any(_holds(statics, piece, x) for piece in pieces):
-                pieces += trace(statics, x, 0.0, range_of_field(statics, largest))
+                pieces += trace(statics, x, 0.0, range_of_input(statics, largest))
     return pieces
+
+
+def why_not_from_unloaded(statics: Statics) -> str | None:
+    """Why no branch begins at the unloaded membrane; None where one does."""
+    try:
+        at_zero_field(statics)
+    except Lost as reason:
+        return str(reason)
+    return None
 
 
 def limit_points(statics: Statics, pieces: list[Piece]) -> list[LimitPoint]:

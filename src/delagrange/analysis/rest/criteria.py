@@ -7,12 +7,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from delagrange import checks
-from delagrange.analysis.rest.statics import FIELD, Statics, input_place
+from delagrange.analysis.rest.statics import Statics, typical_electrical
+from delagrange.inputs import ELECTRIC_FIELD
 from delagrange.problem import Problem
 
 _NEGLIGIBLE = (
     1e-9  # of the typical force and the electric one: an edge without load carries zero up to round-off
 )
+_LARGE = 1e6  # typical charges
 BREAKDOWN_DEFINITION = "true field reaches breakdown_field / (thickness stretch)^(breakdown_exponent / 2)"
 
 
@@ -44,8 +46,39 @@ def thickness_stretch(statics: Statics, x: np.ndarray) -> float:
 
 def true_field(statics: Statics, x: np.ndarray) -> float:
     """Voltage over the thickness as it is [V/m]."""
-    place = input_place(statics.problem, FIELD)
-    return statics.arguments(x)[1][place] / thickness_stretch(statics, x)
+    electrical = statics.electrical
+    value = _electrical_value(statics, x)
+    nominal = value if electrical is ELECTRIC_FIELD else value * _field_by_charge(statics, x)
+    return nominal / thickness_stretch(statics, x)
+
+
+def _electrical_value(statics: Statics, x: np.ndarray) -> float:
+    """The nominal field [V/m], or charge density [C/m^2]."""
+    names = [entry.name for entry in statics.problem.model.INPUTS]
+    return float(statics.arguments(x)[1][names.index(statics.electrical.name)])
+
+
+def _field_by_charge(statics: Statics, x: np.ndarray) -> float:
+    """Nominal field over nominal charge density [V m/C] under charge control.
+
+    The energy of the charge is its square times volume / 2 times this, whatever permittivity depends on: its work
+    is the voltage times the charge. Evaluated at so large a charge that the elastic energy is no part of it.
+    """
+    state, inputs, parameters = statics.arguments(x)
+    names = [entry.name for entry in statics.problem.model.INPUTS]
+    charge = _LARGE * typical_electrical(statics)
+    energies = []
+    for value in (charge, 0.0):
+        charged = tuple(
+            value if name == statics.electrical.name else each for name, each in zip(names, inputs)
+        )
+        energies.append(float(statics.problem.model.potential_energy(state, charged, parameters)))
+    return 2 * (energies[0] - energies[1]) / (reference_volume(statics) * charge**2)
+
+
+def reference_volume(statics: Statics) -> float:
+    """Volume 8 L_1 L_2 H [m^3]."""
+    return 8 * float(np.prod(_half_lengths(statics))) * material(statics.problem, "half_thickness")
 
 
 def edge_forces(statics: Statics, x: np.ndarray) -> np.ndarray:
@@ -68,7 +101,7 @@ def breakdown_margin(statics: Statics, x: np.ndarray, criteria: Criteria) -> flo
 
 def tension_margin(statics: Statics, x: np.ndarray, criteria: Criteria) -> float:
     """Force [N] that the slacker edge has above the smallest tension; what is zero but for round-off counts as kept."""
-    smallest = criteria.smallest_tension * cross_section(statics)
+    smallest = criteria.smallest_tension * cross_sections(statics) if criteria.smallest_tension else 0.0
     return float(np.min(edge_forces(statics, x)) - smallest) + negligible_force(statics, x)
 
 
@@ -80,9 +113,16 @@ def negligible_force(statics: Statics, x: np.ndarray) -> float:
     return _NEGLIGIBLE * (statics.typical_force + float(electric))
 
 
-def cross_section(statics: Statics) -> float:
-    """Area 4 L H of an edge in the reference state [m^2]."""
-    return 4 * material(statics.problem, "half_length") * material(statics.problem, "half_thickness")
+def cross_sections(statics: Statics) -> np.ndarray:
+    """(2,) [m^2]: area 4 L H of the edges of axes 1 and 2 in the reference state, L that of the other axis."""
+    return 4 * _half_lengths(statics)[::-1] * material(statics.problem, "half_thickness")
+
+
+def _half_lengths(statics: Statics) -> np.ndarray:
+    """(2,) [m]: L_1, L_2."""
+    names = [entry.name for entry in statics.problem.model.PARAMETERS]
+    lengths = ("half_length",) * 2 if "half_length" in names else ("half_length_1", "half_length_2")
+    return np.array([material(statics.problem, name) for name in lengths])
 
 
 def material(problem: Problem, name: str) -> float:

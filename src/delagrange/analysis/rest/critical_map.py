@@ -1,4 +1,4 @@
-"""The critical field against the force: static pull-in with relaxed and frozen dashpots, and dynamic pull-in."""
+"""The critical field, or charge, against the force: static pull-in, dashpots relaxed or frozen, and dynamic."""
 
 from __future__ import annotations
 
@@ -9,15 +9,13 @@ import xarray as xr
 
 from delagrange import checks
 from delagrange.analysis.rest.dynamic_pull_in import dynamic_pull_in
-from delagrange.analysis.rest.pull_in import pull_in
+from delagrange.analysis.rest.pull_in import critical_names, pull_in
 from delagrange.dashpots import FROZEN, RELAXED
 from delagrange.dataset import variable
+from delagrange.inputs import ELECTRICAL
 
 SLOW, FAST, SUDDEN = "static, dashpots relaxed", "static, dashpots frozen", "dynamic, dashpots frozen"
 _CRITERIA = ("breakdown_field", "breakdown_exponent", "smallest_tension")
-_SHARED = ("field", "voltage", "stretch", "found")
-_RESOLUTION = 1e-7  # of the integration, finer than any picture
-_STATIC = ("highest_field", "loss_of_tension_field", "breakdown_field_nominal")
 
 
 def critical_map(model: str | ModuleType, *, force: np.ndarray, **options: object) -> xr.Dataset:
@@ -31,7 +29,8 @@ def critical_map(model: str | ModuleType, *, force: np.ndarray, **options: objec
         Dataset over (`load`, `force`): `field` [V/m], `voltage`, `stretch` and `found` for a field that grows
         slowly against relaxation, one that grows fast against it and slowly against vibration, and one that is
         applied at once, together with the force, to the membrane at rest in the reference state. For the first
-        two `highest_field`, `loss_of_tension_field` and `breakdown_field_nominal` as well.
+        two `highest_field`, `loss_of_tension_field` and `breakdown_field_nominal` as well. Under charge control
+        names as in `pull_in`.
 
     Raises:
         ValueError: as `pull_in`.
@@ -39,7 +38,10 @@ def critical_map(model: str | ModuleType, *, force: np.ndarray, **options: objec
     force = checks.increasing("force", force, "N")
     dynamic_options = {name: value for name, value in options.items() if name not in _CRITERIA}
     slow, fast = (pull_in(model, force=force, dashpots=dashpots, **options) for dashpots in (RELAXED, FROZEN))
-    sudden = dynamic_pull_in(model, force=force, dashpots=FROZEN, resolution=_RESOLUTION, **dynamic_options)
+    sudden = dynamic_pull_in(model, force=force, dashpots=FROZEN, resolution=None, **dynamic_options)
+    electrical = ELECTRICAL[fast.attrs["varied_input"]]
+    first = "stretch" if "stretch" in fast else fast.attrs["coordinates"].split(", ")[0]
+    shared = [name for name in (electrical.argument, "voltage", first, "found") if name in fast]
     loads = np.array([SLOW, FAST, SUDDEN], dtype=object)
     data = {
         name: (
@@ -47,12 +49,12 @@ def critical_map(model: str | ModuleType, *, force: np.ndarray, **options: objec
             np.array([part[name].values for part in (slow, fast, sudden)]),
             fast[name].attrs,
         )
-        for name in _SHARED
+        for name in shared
     }
     nothing = np.full(len(force), np.nan)
     data |= {
         name: (("load", "force"), np.array([slow[name].values, fast[name].values, nothing]), fast[name].attrs)
-        for name in _STATIC
+        for name in critical_names(electrical).values()
     }
     coordinates = {
         "load": ("load", loads, {"long_name": "how the field is applied, and what the dashpots do"}),

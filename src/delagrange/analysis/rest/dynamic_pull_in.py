@@ -1,4 +1,4 @@
-"""Dynamic pull-in: the field that, applied suddenly, a membrane at rest does not stand."""
+"""Dynamic pull-in: the field, or charge, that, applied suddenly, a membrane at rest does not stand."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import xarray as xr
 
 from delagrange import checks
 from delagrange.analysis.continuation import Lost, parameter_of
-from delagrange.analysis.rest.arguments import FROZEN_MEANING, Cases, make_cases
+from delagrange.analysis.rest.arguments import FROZEN_MEANING, Cases, first_coordinate, make_cases
 from delagrange.analysis.rest.branches import at_zero_field, connected_pieces
 from delagrange.analysis.rest.criteria import material
 from delagrange.analysis.rest.energy_barrier import barrier_at_start_energy
@@ -19,9 +19,10 @@ from delagrange.analysis.rest.pieces import FOLD, Piece, point_at
 from delagrange.analysis.rest.statics import Statics, make_statics
 from delagrange.analysis.rest.sudden_field import ATOL, FINEST, RTOL, Bracket, bracket_by_integration
 from delagrange.analysis.rest.vibration import vibration
-from delagrange.dashpots import EVOLVING, FROZEN, RELAXED
+from delagrange.dashpots import EVOLVING, FROZEN, RELAXED, is_damped
 from delagrange.dataset import variable
 from delagrange.engines import AUTO, ENGINES
+from delagrange.inputs import ELECTRIC_FIELD, ElectricalInput, Inputs, electrical_input
 from delagrange.loss import Limits
 from delagrange.models import check_offers
 from delagrange.parameters import SHENG_2015, Parameters
@@ -30,6 +31,11 @@ from delagrange.tolerances import check_duration
 
 REFERENCE, EQUILIBRIUM = "reference", "equilibrium"
 _PERIODS = 200  # of the slowest vibration at the start
+_FEW_PERIODS = 20  # where the integration only says what becomes of a membrane that passes the barrier
+_FINE, _COARSE = (
+    1e-7,
+    1e-2,
+)  # resolutions that a map takes: of what integration gives, and of what energy gives
 _BEYOND = 1.05  # of the static pull-in: there nothing holds the membrane
 ENERGY, INTEGRATION = "energy", "integration"
 FOUND, SNAP, NO_BARRIER, NOT_LOST, FORCE_ALONE, NO_START = (
@@ -57,25 +63,35 @@ class _Integration:
     dashpots: str
     start: str
     duration: float | None  # [s]
-    resolution: float
+    resolution: float | None
     engine: str
+
+    def width(self, exact: bool) -> float:
+        """Resolution of the bracket, where energy gives the field exactly or does not."""
+        if self.resolution is not None:
+            return self.resolution
+        return _COARSE if exact else _FINE
+
+    def periods(self, exact: bool) -> int:
+        """Periods of the slowest vibration that a run lasts, where no duration is given."""
+        return _FEW_PERIODS if exact and self.resolution is None else _PERIODS
 
 
 @dataclass(frozen=True)
 class Critical:
-    """The critical field of one case; NaN where there is none."""
+    """The critical field of one case, or charge [C/m^2] under charge control; NaN where there is none."""
 
     status: str
     method: str
     field_by_energy: float  # [V/m]
-    stretch: float  # [1], of the unstable equilibrium at the critical field
+    stretch: float  # first coordinate [1] of the unstable equilibrium at the critical field
     static_field: float  # [V/m]
     duration: float  # [s]
     bracket: Bracket
 
     @property
     def field(self) -> float:
-        """By energy where that is exact, else by integration [V/m]."""
+        """By energy where that is exact, else by integration."""
         return self.field_by_energy if self.method == ENERGY else self.bracket.middle
 
 
@@ -83,10 +99,11 @@ def dynamic_pull_in(
     model: str | ModuleType,
     *,
     force: float | np.ndarray = 0.0,
+    inputs: Inputs | None = None,
     dashpots: str = "frozen",
     start: str = "reference",
     duration: float | None = None,
-    resolution: float = FINEST,
+    resolution: float | None = FINEST,
     held_stretch: float | np.ndarray | None = None,
     engine: str = AUTO,
     formulation: str | None = None,
@@ -104,11 +121,15 @@ def dynamic_pull_in(
 
     Args:
         force: on each loaded edge [N], applied together with the field, or there before it.
+        inputs: of any other input but the field by its name, as {"force_2": 0.3}, numbers or arrays; each grows
+            from zero before the field, in the order of the model's inputs. The electrical input is what varies.
         dashpots: "frozen" as in the reference state or `initial_state`; or "evolving" from there (or from rest
             with start "equilibrium"): by integration alone.
         start: "reference", in the reference state or `initial_state`; or "equilibrium", under the force alone.
         duration: of each run [s]; left out, 200 periods of the slowest vibration at the start.
-        resolution: width of the bracket of the integration over the field in it, 1e-11 to 1e-2.
+        resolution: width of the bracket of the integration over the field in it, 1e-11 to 1e-2. None, as a map
+            has it: 1e-7, and where energy gives the field 1e-2 with runs of 20 periods, which tell what becomes of
+            a membrane that passes the barrier and no more.
         engine: of the integration, as in `frequency_response`.
         others: as in `pull_in`.
 
@@ -116,7 +137,9 @@ def dynamic_pull_in(
         Dataset over the arrays given: `field` [V/m]; `stretch` of the unstable equilibrium there (dashpots as at
         the start), which a motion of one coordinate reaches exactly and has to pass; `method`;
         `field_by_energy` (one coordinate) or `field_by_energy_bound`, below which no motion gets over the
-        barrier (two coordinates); `field_by_integration` with `bracket_width`; `static_field`; `found`.
+        barrier (two coordinates); `field_by_integration` with `bracket_width`; `static_field`; `found`. Under
+        charge control the charge [C/m^2] stands for the field: `nominal_charge_density`,
+        `nominal_charge_density_by_integration`, `static_nominal_charge_density` and so on, and there is no voltage.
 
     Raises:
         ValueError: something given makes no sense; the message names it, its value, its unit and what is allowed.
@@ -126,9 +149,10 @@ def dynamic_pull_in(
     checks.choice("start", start, (REFERENCE, EQUILIBRIUM))
     checks.choice("engine", engine, (AUTO, *ENGINES))
     duration = None if duration is None else check_duration(duration)
-    resolution = checks.within("resolution", resolution, "1", FINEST, 1e-2)
+    if resolution is not None:
+        resolution = checks.within("resolution", resolution, "1", FINEST, 1e-2)
     values = {"force": force, "held_stretch": held_stretch, **material_changes}
-    cases = make_cases(model, formulation, lateral_dashpot, parameters, initial_state, limits, values)
+    cases = make_cases(model, formulation, lateral_dashpot, parameters, initial_state, limits, values, inputs)
     check_offers(cases.model, ("potential_energy",), "dynamic pull-in")
     integration = _Integration(dashpots, start, duration, resolution, engine)
     found = [_critical(cases, problem, integration) for problem in cases.problems()]
@@ -145,7 +169,8 @@ def dynamic_pull_in(
 
 def _critical(cases: Cases, problem: Problem, how: _Integration) -> Critical:
     frozen = make_statics(problem, FROZEN, cases.initial_state, cases.limits)
-    exact = how.dashpots == FROZEN and cases.model.COORDINATE_COUNT == 1
+    conservative = how.dashpots == FROZEN and not is_damped(frozen.problem)
+    exact = conservative and cases.model.COORDINATE_COUNT == 1
     method = ENERGY if exact else INTEGRATION
     try:
         state = _start_state(cases, problem, frozen, how)
@@ -154,11 +179,12 @@ def _critical(cases: Cases, problem: Problem, how: _Integration) -> Critical:
     except Lost:
         nothing = Bracket(np.nan, np.nan, "")
         return Critical(NO_START, method, np.nan, np.nan, np.nan, np.nan, nothing)
-    barrier = barrier_at_start_energy(frozen, pieces, state) if how.dashpots == FROZEN else None
-    duration = _default_duration(frozen, state) if how.duration is None else how.duration
+    barrier = barrier_at_start_energy(frozen, pieces, state) if conservative else None
+    duration = how.duration or _default_duration(frozen, state, how.periods(exact))
     runs = frozen.problem if how.dashpots == FROZEN else problem
     largest = _BEYOND * pieces[0].high
-    bracket = bracket_by_integration(runs, state, largest, duration, cases.limits, how.engine, how.resolution)
+    width = how.width(exact)
+    bracket = bracket_by_integration(runs, state, largest, duration, cases.limits, how.engine, width)
     energy = np.nan if barrier is None else parameter_of(barrier)
     stretch = _barrier_stretch(frozen, pieces, energy if exact else bracket.middle)
     static = pieces[0].high if pieces[0].upper_end == FOLD else np.nan
@@ -182,10 +208,10 @@ def _start_state(cases: Cases, problem: Problem, frozen: Statics, how: _Integrat
     return statics.state(at_zero_field(statics))
 
 
-def _default_duration(statics: Statics, state: np.ndarray) -> float:
+def _default_duration(statics: Statics, state: np.ndarray, periods: int) -> float:
     rates = vibration(statics, statics.x_of(state, 0.0)).rates
     slowest = np.min(np.abs(rates))
-    return float(_PERIODS * 2 * np.pi / slowest)
+    return float(periods * 2 * np.pi / slowest)
 
 
 def _status(bracket: Bracket, exact: bool, barrier: bool) -> str:
@@ -198,24 +224,9 @@ def _status(bracket: Bracket, exact: bool, barrier: bool) -> str:
 
 def _variables(cases: Cases, found: list[Critical], dashpots: str) -> dict[str, tuple]:
     dimensions, shape = tuple(cases.grid.axes), cases.grid.shape
-    fields = np.array([critical.field for critical in found])
-    thickness = 2 * np.array([material(problem, "half_thickness") for problem in cases.problems()])
-    by_energy = "field_by_energy" if cases.model.COORDINATE_COUNT == 1 else "field_by_energy_bound"
-    columns = {
-        "field": ("V/m", "critical field of dynamic pull-in", fields),
-        "voltage": ("V", "critical voltage of dynamic pull-in", fields * thickness),
-        "stretch": (
-            "1",
-            "stretch of the unstable equilibrium at it",
-            [critical.stretch for critical in found],
-        ),
-        "field_by_integration": ("V/m", "critical field by integration", [c.bracket.middle for c in found]),
-        "bracket_width": ("V/m", "width of its bracket", [c.bracket.width for c in found]),
-        "duration": ("s", "duration of the runs", [c.duration for c in found]),
-        "static_field": ("V/m", "field of static pull-in", [c.static_field for c in found]),
-    }
+    columns = _critical_numbers(cases, found) | _numbers_about(cases, found)
     if dashpots == FROZEN:
-        columns[by_energy] = ("V/m", by_energy.replace("_", " "), [c.field_by_energy for c in found])
+        columns |= _energy_numbers(cases, found)
     data = {
         name: variable(dimensions, np.array(values, dtype=float).reshape(shape), unit, long_name)
         for name, (unit, long_name, values) in columns.items()
@@ -227,3 +238,47 @@ def _variables(cases: Cases, found: list[Critical], dashpots: str) -> dict[str, 
         array = np.array(values, dtype=object).reshape(shape)
         data[name] = dimensions, array, {"long_name": name, "meaning": meaning}
     return data
+
+
+_Columns = dict[str, tuple[str, str, list[float] | np.ndarray]]  # unit, long name and values by name
+
+
+def _critical_numbers(cases: Cases, found: list[Critical]) -> _Columns:
+    electrical: ElectricalInput = electrical_input(cases.model)
+    fields = np.array([critical.field for critical in found])
+    data = {electrical.argument: (electrical.unit, f"critical {electrical.text} of dynamic pull-in", fields)}
+    if electrical is ELECTRIC_FIELD:
+        thickness = 2 * np.array([material(problem, "half_thickness") for problem in cases.problems()])
+        data["voltage"] = ("V", "critical voltage of dynamic pull-in", fields * thickness)
+    return data
+
+
+def _numbers_about(cases: Cases, found: list[Critical]) -> _Columns:
+    electrical, first = electrical_input(cases.model), first_coordinate(cases.model)
+    name, text, unit = electrical.argument, electrical.text, electrical.unit
+    return {
+        first: (
+            "1",
+            f"{first.replace('_', ' ')} of the unstable equilibrium at it",
+            [critical.stretch for critical in found],
+        ),
+        f"{name}_by_integration": (
+            unit,
+            f"critical {text} by integration",
+            [critical.bracket.middle for critical in found],
+        ),
+        "bracket_width": (unit, "width of its bracket", [critical.bracket.width for critical in found]),
+        "duration": ("s", "duration of the runs", [critical.duration for critical in found]),
+        f"static_{name}": (
+            unit,
+            f"{text} of static pull-in",
+            [critical.static_field for critical in found],
+        ),
+    }
+
+
+def _energy_numbers(cases: Cases, found: list[Critical]) -> _Columns:
+    electrical = electrical_input(cases.model)
+    bound = "" if cases.model.COORDINATE_COUNT == 1 else "_bound"
+    name = f"{electrical.argument}_by_energy{bound}"
+    return {name: (electrical.unit, name.replace("_", " "), [critical.field_by_energy for critical in found])}

@@ -10,7 +10,7 @@ from delagrange.analysis.rest.statics import Statics
 
 
 def barrier_at_start_energy(statics: Statics, pieces: list[Piece], start: np.ndarray) -> Point | None:
-    """The unstable equilibrium whose energy is that of the start at the same field; None where there is none.
+    """The unstable equilibrium whose energy is that of the start at the same field or charge; None: there is none.
 
     With one coordinate the membrane reaches exactly this barrier, at exactly this field: Pi(q_u) = Pi(q_0),
     dPi/dq(q_u) = 0; the argument of Joglekar (2014), J. Appl. Mech. 81, 091010. Where the start is itself beyond
@@ -18,7 +18,7 @@ def barrier_at_start_energy(statics: Statics, pieces: list[Piece], start: np.nda
     down to the start, q_u = q_0, and the membrane stands until then.
 
     Args:
-        statics: with frozen dashpots and the field varied.
+        statics: with frozen dashpots and the electrical input varied.
         pieces: of the curve from the unloaded membrane, the stable one first.
         start: (n_state,), at rest.
     """
@@ -31,7 +31,7 @@ def barrier_at_start_energy(statics: Statics, pieces: list[Piece], start: np.nda
 
 def _barrier_at_start(statics: Statics, pieces: list[Piece], start: np.ndarray) -> Point | None:
     """Where the unstable equilibrium passes the start."""
-    place = float(np.log(start[0]))
+    place = float(statics.x_of(start, 0.0)[0])
     crossings = [
         point for piece in pieces[1:2] for point in locate_on(statics, piece, lambda x: x[0] - place)
     ]

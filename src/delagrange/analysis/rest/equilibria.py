@@ -1,4 +1,4 @@
-"""Where a membrane rests under constant force and field: all branches, their stability, and where they end."""
+"""Where a membrane rests under constant force and field or charge: all branches, their stability, where they end."""
 
 from __future__ import annotations
 
@@ -13,17 +13,21 @@ from delagrange import checks
 from delagrange.analysis.rest.arguments import (
     FROZEN_MEANING,
     RELAXED_MEANING,
+    electrical_name,
     make_cases,
     single_case,
+    without_electrical,
 )
-from delagrange.analysis.rest.branches import all_pieces, limit_points
+from delagrange.analysis.rest.branches import all_pieces, limit_points, why_not_from_unloaded
 from delagrange.analysis.rest.criteria import Criteria, material
 from delagrange.analysis.rest.equilibria_dataset import branch_variables, curve_variables, limit_variables
 from delagrange.analysis.rest.equilibria_grid import grid_variables
 from delagrange.analysis.rest.pieces import Piece
 from delagrange.analysis.rest.statics import Statics, make_statics
 from delagrange.dataset import variable
+from delagrange.inputs import CHARGE_DENSITY, Inputs
 from delagrange.loss import Limits
+from delagrange.models import load_model
 from delagrange.parameters import SHENG_2015, Parameters
 
 
@@ -40,6 +44,7 @@ def equilibria(
     model: str | ModuleType,
     *,
     force: float = 0.0,
+    inputs: Inputs | None = None,
     field: float | np.ndarray | None = None,
     voltage: float | np.ndarray | None = None,
     dashpots: str = "relaxed",
@@ -54,7 +59,7 @@ def equilibria(
     limits: Limits | None = None,
     **material_changes: float,
 ) -> xr.Dataset:
-    """Every equilibrium of a membrane under a constant force, over the field.
+    """Every equilibrium of a membrane under a constant force, over the field or, under charge control, the charge.
 
     Curves are followed by pseudo-arclength continuation from the unloaded membrane and from whatever Newton's
     method finds from a grid of stretches at several fields from zero to the largest. A `branch` is a part of a
@@ -65,6 +70,9 @@ def equilibria(
 
     Args:
         force: on each loaded edge [N].
+        inputs: of any other input but the field by its name, as {"force_2": 0.3}; each grows from zero before
+            the field, in the order of the model's inputs. Under charge control also the charge, instead of a
+            field: {"nominal_charge_density": values} [C/m^2], a number or an increasing array.
         field: nominal, voltage over reference thickness [V/m]; a number or an increasing array, also none.
         voltage: instead of the field, [V].
         dashpots: "relaxed", at rest as well; or "frozen", as in the reference state or `initial_state`.
@@ -81,53 +89,71 @@ def equilibria(
         `true_field`, `tension_lost`, `breakdown`. Over `field`: `count`, `stable_count`, `voltage`. Over
         `branch`: why it ends at either end. The curves themselves over `point`, limit points over
         `limit_point`. A single field has no dimension. No equilibrium at all is an answer: no branch, or NaN.
+        Where no branch begins at the unloaded membrane, the attribute `unloaded_lost` says why.
+        Under charge control the charge stands for the field in all these names, as `nominal_charge_density`
+        and `limit_nominal_charge_density` [C/m^2], and there are no voltages.
 
     Raises:
         ValueError: something given makes no sense; the message names it, its value, its unit and what is allowed.
     """
     limits = Limits() if limits is None else limits
     values = {"force": force, "held_stretch": held_stretch, **material_changes}
-    cases = make_cases(model, formulation, lateral_dashpot, parameters, initial_state, limits, values)
+    module = load_model(model, formulation, lateral_dashpot)
+    others, charge = without_electrical(module, inputs)
+    cases = make_cases(module, None, None, parameters, initial_state, limits, values, others)
     problem = single_case(cases, "equilibria").first_problem()
     statics = make_statics(problem, dashpots, cases.initial_state, limits)
     criteria = Criteria(breakdown_field, breakdown_exponent, smallest_tension)
-    fields = _fields(field, voltage, statics)
+    fields = _fields(field, voltage, charge, statics)
     pieces = all_pieces(statics, float(np.max(np.abs(fields))))
     found = Found(statics, pieces, criteria)
     return _dataset(found, fields, cases.coordinates(), cases.attributes(dashpots))
 
 
-def _fields(field: object, voltage: object, statics: Statics) -> np.ndarray:
-    """Nominal fields [V/m], of no or one dimension.
+def _fields(field: object, voltage: object, charge: object, statics: Statics) -> np.ndarray:
+    """Values of the electrical input, fields [V/m] or charges [C/m^2], of no or one dimension.
 
     Raises:
         ValueError: both given or none, or values that are not finite and increasing.
     """
+    if electrical_name(statics.problem.model, field if voltage is None else voltage) is CHARGE_DENSITY:
+        return _charges(charge)
     if (field is None) == (voltage is None):
         given = "neither" if field is None else "both"
         raise ValueError(f"either field [V/m] or voltage [V] must be given, got {given}")
     name, value, unit = ("field", field, "V/m") if voltage is None else ("voltage", voltage, "V")
-    values = np.asarray(checks.finite(name, value, unit), dtype=float)
-    if values.ndim:
-        values = checks.increasing(name, values, unit)
     thickness = 1.0 if voltage is None else 2 * material(statics.problem, "half_thickness")
-    return values / thickness
+    return _increasing(name, value, unit) / thickness
+
+
+def _charges(charge: object) -> np.ndarray:
+    name, unit = CHARGE_DENSITY.name, CHARGE_DENSITY.unit
+    if charge is None:
+        raise ValueError(f"inputs {name} [{unit}] must be given, got none")
+    return _increasing(f"inputs {name}", charge, unit)
+
+
+def _increasing(name: str, value: object, unit: str) -> np.ndarray:
+    values = np.asarray(checks.finite(name, value, unit), dtype=float)
+    return checks.increasing(name, values, unit) if values.ndim else values
 
 
 def _dataset(
     found: Found, fields: np.ndarray, coordinates: dict[str, tuple], attributes: dict[str, object]
 ) -> xr.Dataset:
-    statics, pieces = found.statics, found.pieces
-    dimensions = ("field",) if fields.ndim else ()
+    statics, pieces, electrical = found.statics, found.pieces, found.statics.electrical
+    dimensions = (electrical.argument,) if fields.ndim else ()
+    unreached = why_not_from_unloaded(statics)
+    first = f"{'0' if unreached is None else 'none'} begins at the unloaded membrane"
     data = grid_variables(statics, pieces, found.criteria, np.atleast_1d(fields), dimensions)
-    data |= branch_variables(pieces)
+    data |= branch_variables(pieces, electrical)
     data |= curve_variables(statics, pieces, found.criteria)
     data |= limit_variables(statics, limit_points(statics, pieces))
     coordinates = coordinates | {
-        "field": variable(dimensions, fields, "V/m", "nominal electric field", "E"),
-        "branch": variable(
-            "branch", np.arange(len(pieces)), "1", "number of the branch; 0 begins at the unloaded membrane"
+        electrical.argument: variable(
+            dimensions, fields, electrical.unit, electrical.long_name, electrical.symbol
         ),
+        "branch": variable("branch", np.arange(len(pieces)), "1", f"number of the branch; {first}"),
     }
     method = {
         "method": "pseudo-arclength continuation (Keller 1977) of the derived equations at rest",
@@ -140,4 +166,5 @@ def _dataset(
         "smallest_tension": found.criteria.smallest_tension,
         "smallest_tension_units": "Pa",
     }
+    method |= {} if unreached is None else {"unloaded_lost": unreached}
     return xr.Dataset(data, coords=coordinates, attrs=attributes | method)

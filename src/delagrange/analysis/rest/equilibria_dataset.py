@@ -12,6 +12,7 @@ from delagrange.analysis.rest.pieces import FOLD, Piece
 from delagrange.analysis.rest.statics import Statics
 from delagrange.analysis.rest.vibration import STABILITY_MEANING, growing_directions, stability_name
 from delagrange.dataset import variable
+from delagrange.inputs import ELECTRIC_FIELD, ElectricalInput
 
 _ENDING_MEANING = (
     "fold: it turns back there, at a limit point; limit: a stretch beyond the limits; lost: the continuation "
@@ -19,8 +20,9 @@ _ENDING_MEANING = (
 )
 
 
-def branch_variables(pieces: list[Piece]) -> dict[str, tuple]:
-    """From which field to which every branch reaches, and why it ends there."""
+def branch_variables(pieces: list[Piece], electrical: ElectricalInput) -> dict[str, tuple]:
+    """From which field, or charge, to which every branch reaches, and why it ends there."""
+    name, text, unit = electrical.argument, electrical.text, electrical.unit
 
     def texts(values: list[str], long_name: str) -> tuple:
         attributes = {"long_name": long_name, "meaning": _ENDING_MEANING}
@@ -28,15 +30,19 @@ def branch_variables(pieces: list[Piece]) -> dict[str, tuple]:
 
     lowest, highest = [piece.low for piece in pieces], [piece.high for piece in pieces]
     return {
-        "branch_lowest_field": variable("branch", lowest, "V/m", "smallest field of the branch"),
-        "branch_highest_field": variable("branch", highest, "V/m", "largest field of the branch"),
-        "branch_lower_end": texts([piece.lower_end for piece in pieces], "why it ends at its smallest field"),
-        "branch_upper_end": texts([piece.upper_end for piece in pieces], "why it ends at its largest field"),
+        f"branch_lowest_{name}": variable("branch", lowest, unit, f"smallest {text} of the branch"),
+        f"branch_highest_{name}": variable("branch", highest, unit, f"largest {text} of the branch"),
+        "branch_lower_end": texts(
+            [piece.lower_end for piece in pieces], f"why it ends at its smallest {text}"
+        ),
+        "branch_upper_end": texts(
+            [piece.upper_end for piece in pieces], f"why it ends at its largest {text}"
+        ),
     }
 
 
 def curve_variables(statics: Statics, pieces: list[Piece], criteria: Criteria) -> dict[str, tuple]:
-    """Every point of every branch, in the order of the growing field."""
+    """Every point of every branch, in the order of the growing field or charge."""
     points = [point for piece in pieces for point in piece.points]
     numbers = [number for number, piece in enumerate(pieces) for _ in piece.points]
     names = [name for piece in pieces for name in _stabilities(statics, piece)]
@@ -65,8 +71,10 @@ def limit_variables(statics: Statics, limits: list[LimitPoint]) -> dict[str, tup
     points = [limit.point for limit in limits]
     kinds = np.array([limit.kind for limit in limits], dtype=object)
     data = _state_variables(statics, points, "limit_point", "limit_", "at the limit point")
-    voltages = np.array([point.x[-1] for point in points]) * 2 * material(statics.problem, "half_thickness")
-    data["limit_voltage"] = variable("limit_point", voltages, "V", "voltage at the limit point", "U")
+    if statics.electrical is ELECTRIC_FIELD:
+        fields = np.array([point.x[-1] for point in points])
+        voltages = fields * 2 * material(statics.problem, "half_thickness")
+        data["limit_voltage"] = variable("limit_point", voltages, "V", "voltage at the limit point", "U")
     data["limit_kind"] = "limit_point", kinds, {"long_name": "kind of limit", "meaning": LIMIT_MEANING}
     return data
 
@@ -74,11 +82,16 @@ def limit_variables(statics: Statics, limits: list[LimitPoint]) -> dict[str, tup
 def _state_variables(
     statics: Statics, points: list[Point], dimension: str, prefix: str, where: str
 ) -> dict[str, tuple]:
-    """The field and the state variables of points, each with a prefix."""
-    model = statics.problem.model
+    """The field, or charge, and the state variables of points, each with a prefix."""
+    model, electrical = statics.problem.model, statics.electrical
     states = np.array([statics.state(point.x) for point in points]).reshape(-1, len(model.STATE)).T
     fields = np.array([point.x[-1] for point in points])
-    data = {f"{prefix}field": variable(dimension, fields, "V/m", f"nominal electric field {where}", "E")}
+    long_name = f"{electrical.long_name} {where}"
+    data = {
+        prefix + electrical.argument: variable(
+            dimension, fields, electrical.unit, long_name, electrical.symbol
+        )
+    }
     for entry, values in zip(model.STATE, states):
         data[prefix + entry.name] = variable(
             dimension, values, entry.unit, f"{entry.meaning}, {where}", entry.symbol

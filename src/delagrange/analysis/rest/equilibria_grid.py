@@ -1,4 +1,4 @@
-"""Equilibria over the fields that were asked for, on every branch."""
+"""Equilibria over the fields, or charges, that were asked for, on every branch."""
 
 from __future__ import annotations
 
@@ -25,16 +25,16 @@ from delagrange.analysis.rest.vibration import (
     stability_name,
 )
 from delagrange.dataset import variable
+from delagrange.inputs import ELECTRIC_FIELD, ElectricalInput
 
 NO_EQUILIBRIUM = "no equilibrium"
 _MEASURES = {
-    "margin": ("V/m", "field at the limit point of the branch less the field", "upper limit point; NaN without one"),
-    "relative_margin": ("1", "margin over the field at the limit point", "upper limit point; NaN without one"),
     "edge_force_1": ("N", "force on an edge of axis 1, pulling if positive", "springs and field at rest"),
     "edge_force_2": ("N", "force on an edge of axis 2, pulling if positive", "springs and field at rest"),
     "thickness_stretch": ("1", "stretch through the thickness", "principal stretch 3"),
     "true_field": ("V/m", "true electric field", "voltage over the thickness as it is"),
 }  # fmt: skip
+_BY_MARGIN = "upper limit point; NaN without one"
 _FLAGS = {
     "tension_lost": "a nominal edge stress is below smallest_tension; the membrane wrinkles",
     "breakdown": BREAKDOWN_DEFINITION,
@@ -44,11 +44,14 @@ _FLAGS = {
 def grid_variables(
     statics: Statics, pieces: list[Piece], criteria: Criteria, fields: np.ndarray, over: tuple[str, ...]
 ) -> dict[str, tuple]:
-    """Variables over (field, branch), or (branch,) where `over` is empty; fields: (n_fields,) [V/m]."""
-    model = statics.problem.model
+    """Variables over (field, branch), or (branch,) where `over` is empty.
+
+    fields: (n_fields,), [V/m], or charges [C/m^2]
+    """
+    model, measures = statics.problem.model, _measures(statics.electrical)
     shape = (len(fields), len(pieces))
     values = {entry.name: np.full(shape, np.nan) for entry in model.STATE}
-    values |= {name: np.full(shape, np.nan) for name in _MEASURES}
+    values |= {name: np.full(shape, np.nan) for name in measures}
     values |= {name: np.zeros(shape, dtype=bool) for name in _FLAGS}
     values["stability"] = np.full(shape, NO_EQUILIBRIUM, dtype=object)
     for place, field in np.ndenumerate(np.broadcast_to(np.abs(fields)[:, None], shape)):
@@ -59,6 +62,16 @@ def grid_variables(
     squeezed = values if over else {name: array[0] for name, array in values.items()}
     data = _variables(statics, squeezed, (*over, "branch"))
     return data | _field_variables(statics, values["stability"], fields, over)
+
+
+def _measures(electrical: ElectricalInput) -> dict[str, tuple[str, str, str]]:
+    """Unit, long name and definition of what is said of every equilibrium."""
+    what = electrical.text
+    margins = {
+        "margin": (electrical.unit, f"{what} at the limit point of the branch less the {what}", _BY_MARGIN),
+        "relative_margin": ("1", f"margin over the {what} at the limit point", _BY_MARGIN),
+    }
+    return margins | _MEASURES
 
 
 def _equilibrium(statics: Statics, piece: Piece, criteria: Criteria, field: float) -> dict[str, object]:
@@ -98,7 +111,7 @@ def _variables(
     }
     for alias, name in stretch_alias(model).items():
         data[alias] = data[name]
-    for name, (unit, long_name, definition) in _MEASURES.items():
+    for name, (unit, long_name, definition) in _measures(statics.electrical).items():
         data[name] = variable(dimensions, values[name], unit, long_name, definition=definition)
     for name, definition in _FLAGS.items():
         long_name = name.replace("_", " ")
@@ -111,11 +124,21 @@ def _variables(
 def _field_variables(
     statics: Statics, stability: np.ndarray, fields: np.ndarray, over: tuple[str, ...]
 ) -> dict[str, tuple]:
-    voltages = fields * 2 * material(statics.problem, "half_thickness")
     counts = np.sum(stability != NO_EQUILIBRIUM, axis=1), np.sum(stability == STABLE, axis=1)
-    voltages, count, stable = (values if over else values[0] for values in (voltages, *counts))
-    return {
-        "voltage": variable(over, voltages, "V", "voltage", "U", definition="field times 2 half_thickness"),
+    count, stable = (values if over else values[0] for values in counts)
+    return _voltage(statics, fields, over) | {
         "count": variable(over, count, "1", "number of equilibria found"),
         "stable_count": variable(over, stable, "1", "number of stable equilibria found"),
+    }
+
+
+def _voltage(statics: Statics, fields: np.ndarray, over: tuple[str, ...]) -> dict[str, tuple]:
+    if statics.electrical is not ELECTRIC_FIELD:
+        return {}
+    voltages = fields * 2 * material(statics.problem, "half_thickness")
+    definition = "field times 2 half_thickness"
+    return {
+        "voltage": variable(
+            over, voltages if over else voltages[0], "V", "voltage", "U", definition=definition
+        )
     }

@@ -11,7 +11,14 @@ import xarray as xr
 
 from delagrange import checks
 from delagrange.analysis.continuation import Lost
-from delagrange.analysis.rest.arguments import FROZEN_MEANING, RELAXED_MEANING, Cases, make_cases
+from delagrange.analysis.rest.arguments import (
+    FROZEN_MEANING,
+    RELAXED_MEANING,
+    Cases,
+    electrical_name,
+    make_cases,
+    without_electrical,
+)
 from delagrange.analysis.rest.branches import connected_pieces
 from delagrange.analysis.rest.modes_dataset import modes_variables
 from delagrange.analysis.rest.pieces import FOLD, Piece, point_at
@@ -22,11 +29,15 @@ from delagrange.analysis.rest.vibration import (
     stability_name,
     vibration,
 )
-from delagrange.dashpots import FROZEN, RELAXED
+from delagrange.dashpots import FROZEN, RELAXED, is_damped
 from delagrange.dataset import variable
+from delagrange.inputs import CHARGE_DENSITY, Inputs
 from delagrange.loss import Limits
+from delagrange.models import load_model
 from delagrange.parameters import SHENG_2015, Parameters
 from delagrange.problem import Problem
+
+_UNDAMPED = "a parallel dashpot or the medium damps: the frequencies are those without that damping"
 
 
 @dataclass(frozen=True)
@@ -44,7 +55,8 @@ def modes(
     model: str | ModuleType,
     *,
     force: float | np.ndarray = 0.0,
-    field: float | np.ndarray = 0.0,
+    inputs: Inputs | None = None,
+    field: float | np.ndarray | None = None,
     dashpots: str = "frozen",
     held_stretch: float | np.ndarray | None = None,
     formulation: str | None = None,
@@ -54,23 +66,27 @@ def modes(
     limits: Limits | None = None,
     **material_changes: float | np.ndarray,
 ) -> xr.Dataset:
-    """Natural frequencies about the equilibrium that the unloaded membrane reaches under force, then field.
+    """Natural frequencies about the equilibrium that the unloaded membrane reaches under force, then field or charge.
 
     Each of force, field, held stretch and material may be a one-dimensional array, and is then a dimension
     (the field the last).
 
     Args:
         force: on each loaded edge [N].
-        field: constant nominal field [V/m]; its sign does not matter.
+        inputs: of any other input but the field by its name, as {"force_2": 0.3}, numbers or arrays; each grows
+            from zero before the field, in the order of the model's inputs. Under charge control also the charge,
+            instead of a field: {"nominal_charge_density": values} [C/m^2], and it is the last dimension.
+        field: constant nominal field [V/m], zero if left out; its sign does not matter.
         dashpots: "frozen", as in the reference state or `initial_state`: no damping at all; or "relaxed", the
             equilibrium has relaxed and the dashpots flow as the membrane vibrates, which damps it.
         others: as in `equilibria`.
 
     Returns:
         Dataset over (the arrays given, `mode`): `frequency` [Hz], ascending; `resonant_field_frequency` [Hz], of
-        a field without bias that excites the mode; `shape` (`coordinate`, `mode`); `growth_rate` [1/s] where a
-        mode grows instead; with relaxed dashpots `decay_rate` [1/s], and `relaxation_rate` of what decays without
-        vibrating. The state variables and `status` say about which equilibrium, or why there is none (NaN).
+        a field without bias that excites the mode (under charge control `resonant_charge_frequency`, of the charge);
+        `shape` (`coordinate`, `mode`); `growth_rate` [1/s] where a mode grows instead; with relaxed dashpots
+        `decay_rate` [1/s], and `relaxation_rate` of what decays without vibrating. The state variables and `status`
+        say about which equilibrium, or why there is none (NaN).
 
     Raises:
         ValueError: something given makes no sense; the message names it, its value, its unit and what is allowed.
@@ -78,29 +94,35 @@ def modes(
     limits = Limits() if limits is None else limits
     checks.choice("dashpots", dashpots, (FROZEN, RELAXED))
     values = {"force": force, "held_stretch": held_stretch, **material_changes}
-    cases = make_cases(model, formulation, lateral_dashpot, parameters, initial_state, limits, values)
-    fields = np.asarray(checks.finite("field", field, "V/m"), dtype=float)
+    module = load_model(model, formulation, lateral_dashpot)
+    others, charge = without_electrical(module, inputs)
+    cases = make_cases(module, None, None, parameters, initial_state, limits, values, others)
+    electrical = electrical_name(module, field)
+    name, fields = (f"inputs {electrical.name}", charge) if electrical is CHARGE_DENSITY else ("field", field)
+    fields = np.asarray(checks.finite(name, 0.0 if fields is None else fields, electrical.unit), dtype=float)
     if fields.ndim:
-        fields = checks.distinct("field", fields, "V/m")
+        fields = checks.distinct(name, fields, electrical.unit)
     spectra = [
         spectrum
         for problem in cases.problems()
         for spectrum in _spectra(cases, problem, dashpots, np.atleast_1d(np.abs(fields)))
     ]
-    dimensions = (*cases.grid.axes, *(("field",) if fields.ndim else ()))
-    along_field = variable("field" if fields.ndim else (), fields, "V/m", "nominal electric field", "E")
+    over = (electrical.argument,) if fields.ndim else ()
+    dimensions = (*cases.grid.axes, *over)
+    along = variable(over, fields, electrical.unit, electrical.long_name, electrical.symbol)
     return xr.Dataset(
         modes_variables(
             cases.model, spectra, dimensions, (*cases.grid.shape, *fields.shape), dashpots == RELAXED
         ),
-        coords=cases.coordinates() | {"field": along_field},
+        coords=cases.coordinates() | {electrical.argument: along},
         attrs=cases.attributes(dashpots)
-        | {"dashpots_meaning": f"{FROZEN_MEANING}; {RELAXED_MEANING}, and flow as the membrane vibrates"},
+        | {"dashpots_meaning": f"{FROZEN_MEANING}; {RELAXED_MEANING}, and flow as the membrane vibrates"}
+        | ({"damping_meaning": _UNDAMPED} if dashpots == FROZEN and is_damped(cases.first_problem()) else {}),
     )
 
 
 def _spectra(cases: Cases, problem: Problem, dashpots: str, fields: np.ndarray) -> list[Spectrum]:
-    """The spectrum at each field."""
+    """The spectrum at each field, or charge."""
     statics = make_statics(problem, dashpots, cases.initial_state, cases.limits)
     try:
         piece = connected_pieces(statics, float(np.max(fields)))[0]
@@ -112,7 +134,7 @@ def _spectra(cases: Cases, problem: Problem, dashpots: str, fields: np.ndarray) 
 def _spectrum(statics: Statics, piece: Piece, field: float) -> Spectrum:
     if not piece.covers(field):
         what = "beyond the limit point" if piece.upper_end == FOLD else piece.upper_end
-        return _nothing(statics, f"no equilibrium: {what} at {piece.high:.7g} V/m")
+        return _nothing(statics, f"no equilibrium: {what} at {piece.high:.7g} {statics.electrical.unit}")
     x = point_at(statics, piece, field).x
     count, states = statics.problem.model.COORDINATE_COUNT, len(statics.rest)
     relaxation = np.full(states, np.nan)

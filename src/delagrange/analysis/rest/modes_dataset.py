@@ -11,14 +11,15 @@ import numpy as np
 from delagrange.analysis.rest.arguments import stretch_alias
 from delagrange.analysis.rest.vibration import STABILITY_MEANING
 from delagrange.dataset import variable
+from delagrange.inputs import ElectricalInput, electrical_input
 
 if TYPE_CHECKING:
     from delagrange.analysis.rest.modes import Spectrum
 
-DOUBLING = (
-    "the field enters squared, and (E sin 2 pi f t)^2 = E^2 (1 - cos 4 pi f t) / 2: a field at f without bias "
-    "drives at 2 f, so that a mode of frequency f_n resonates at f = f_n / 2; beside a bias B the field has the "
-    "part 2 B E sin 2 pi f t too, which drives at f, and f = f_n resonates as well, as it does for a force"
+_DOUBLING = (
+    "the {text} enters squared, and ({E} sin 2 pi f t)^2 = {E}^2 (1 - cos 4 pi f t) / 2: a {text} at f without bias "
+    "drives at 2 f, so that a mode of frequency f_n resonates at f = f_n / 2; beside a bias B the {text} has the "
+    "part 2 B {E} sin 2 pi f t too, which drives at f, and f = f_n resonates as well, as it does for a force"
 )
 _ROUND_OFF = "to about 1e-15 of 2 pi times the highest natural frequency"
 
@@ -34,7 +35,7 @@ def modes_variables(
     rates = np.array([spectrum.rates for spectrum in spectra]).reshape(*shape, -1)
     vibrates = rates.imag > 0
     frequency = np.where(vibrates, rates.imag, np.nan) / (2 * np.pi)
-    data = _frequencies(frequency, (*dimensions, "mode"))
+    data = _frequencies(frequency, (*dimensions, "mode"), electrical_input(model))
     data |= _rates(rates, vibrates, (*dimensions, "mode"), damped)
     data |= _shapes(model, spectra, dimensions, shape)
     if damped:
@@ -42,12 +43,15 @@ def modes_variables(
     return data | _equilibrium(model, spectra, dimensions, shape)
 
 
-def _frequencies(frequency: np.ndarray, dimensions: tuple[str, ...]) -> dict[str, tuple]:
+def _frequencies(
+    frequency: np.ndarray, dimensions: tuple[str, ...], electrical: ElectricalInput
+) -> dict[str, tuple]:
+    stem, explanation = electrical.stem, _DOUBLING.format(text=electrical.stem, E=electrical.symbol)
     return {
         "frequency": variable(dimensions, frequency, "Hz", "natural frequency", "f_n"),
-        "resonant_field_frequency": variable(
-            dimensions, frequency / 2, "Hz", "frequency of a field without bias that excites the mode",
-            definition="frequency / 2", explanation=DOUBLING,
+        f"resonant_{stem}_frequency": variable(
+            dimensions, frequency / 2, "Hz", f"frequency of a {stem} without bias that excites the mode",
+            definition="frequency / 2", explanation=explanation,
         ),
     }  # fmt: skip
 

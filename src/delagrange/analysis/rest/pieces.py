@@ -62,7 +62,7 @@ def trace(statics: Statics, start: np.ndarray, low: float, high: float) -> list[
 
     def inside(x: np.ndarray) -> str | None:
         if not low <= x[-1] <= high:
-            return f"end of the range of the {input_name(statics.name)}"
+            return f"end of the range of the {input_name(statics.name).replace('_', ' ')}"
         return statics.outside(x)
 
     scale = statics.scale

@@ -1,4 +1,4 @@
-"""Static pull-in: the field at which the equilibrium of the unloaded membrane ceases to be, over what is varied."""
+"""Static pull-in: the field or charge at which the equilibrium of the unloaded membrane ceases to be."""
 
 from __future__ import annotations
 
@@ -29,18 +29,20 @@ from delagrange.analysis.rest.criteria import (
     true_field,
 )
 from delagrange.analysis.rest.pieces import FOLD, Piece, locate_on
-from delagrange.analysis.rest.statics import FIELD, Statics, make_statics
+from delagrange.analysis.rest.statics import Statics, make_statics
 from delagrange.dashpots import FROZEN, RELAXED
 from delagrange.dataset import variable
+from delagrange.inputs import ELECTRIC_FIELD, ElectricalInput, Inputs, electrical_input
 from delagrange.loss import Limits
 from delagrange.parameters import SHENG_2015, Parameters
 
 NO_LIMIT = "no limit point up to the limits"
-NO_EQUILIBRIUM = "no equilibrium without field"
+NO_EQUILIBRIUM = "no equilibrium without field"  # or charge
 UNSTABLE = "loses stability before a limit point"
 _TENSION, _BREAKDOWN, _NONE = "loss of tension", "electrical breakdown", "none"
 _STATUS_MEANING = (
-    f"{LIMIT_MEANING}; {NO_LIMIT}: the equilibrium stays stable until a stretch passes its limit; "
+    f"{LIMIT_MEANING}; {NO_LIMIT}: the equilibrium stays stable until a stretch passes its limit, or as far as it was "
+    "followed, to many times what would strain the membrane by 1, were it linear; "
     f"{UNSTABLE}: another branch crosses; "
     f"{NO_EQUILIBRIUM}: the membrane does not stand the force, or only with stretches beyond the limits"
 )
@@ -52,18 +54,18 @@ class Limit:
 
     status: str
     point: Point | None
-    highest_field: float  # [V/m] that the branch reaches
+    highest_field: float  # [V/m] that the branch reaches; a charge [C/m^2] under charge control, as all here
     loss_of_tension_field: float  # [V/m]
     breakdown_field: float  # [V/m], nominal
 
     @property
     def field(self) -> float:
-        """Nominal field of the limit [V/m]."""
+        """Nominal field, or charge, of the limit."""
         return np.nan if self.point is None else parameter_of(self.point)
 
     @property
     def first(self) -> str:
-        """What comes first as the field grows."""
+        """What comes first as the field, or the charge, grows."""
         fields = {
             self.status: self.field,
             _TENSION: self.loss_of_tension_field,
@@ -77,6 +79,7 @@ def pull_in(
     model: str | ModuleType,
     *,
     force: float | np.ndarray = 0.0,
+    inputs: Inputs | None = None,
     dashpots: str = "frozen",
     held_stretch: float | np.ndarray | None = None,
     breakdown_field: float | None = None,
@@ -89,12 +92,14 @@ def pull_in(
     limits: Limits | None = None,
     **material_changes: float | np.ndarray,
 ) -> xr.Dataset:
-    """The critical field of static pull-in: a limit point of the equilibrium over a slowly growing field.
+    """The critical field of static pull-in: a limit point of the equilibrium over a slowly growing field, or charge.
 
     Each of force, held stretch and material may be a one-dimensional array, and is then a dimension.
 
     Args:
         force: on each loaded edge [N], there before the field.
+        inputs: of any other input but the field by its name, as {"force_2": 0.3}, numbers or arrays; each grows
+            from zero before the field, in the order of the model's inputs. The electrical input is what varies.
         dashpots: "frozen", as in the reference state or `initial_state`: the field grows fast against relaxation,
             and slowly against vibration; or "relaxed", it grows slowly against both.
         breakdown_field, breakdown_exponent, smallest_tension: as in `equilibria`.
@@ -104,14 +109,16 @@ def pull_in(
         Dataset over the arrays given: `field` [V/m], `voltage`, `stretch` and the state variables at the limit
         point (NaN without one), `true_field`; `found`, the kind of limit or why there is none; `highest_field`,
         up to which the equilibrium goes; `loss_of_tension_field` and `breakdown_field_nominal`, the fields at which
-        those happen on the way (NaN: not before); `first_limit`, whichever comes first.
+        those happen on the way (NaN: not before); `first_limit`, whichever comes first. Under charge control the
+        charge [C/m^2] stands for the field: `nominal_charge_density`, `highest_nominal_charge_density`,
+        `loss_of_tension_nominal_charge_density`, `breakdown_nominal_charge_density`; and there is no voltage.
 
     Raises:
         ValueError: something given makes no sense; the message names it, its value, its unit and what is allowed.
     """
     limits = Limits() if limits is None else limits
     values = {"force": force, "held_stretch": held_stretch, **material_changes}
-    cases = make_cases(model, formulation, lateral_dashpot, parameters, initial_state, limits, values)
+    cases = make_cases(model, formulation, lateral_dashpot, parameters, initial_state, limits, values, inputs)
     criteria = Criteria(breakdown_field, breakdown_exponent, smallest_tension)
     checks.choice("dashpots", dashpots, (FROZEN, RELAXED))
     found = []
@@ -174,36 +181,50 @@ def _reached(
     return min((field for field in fields if field <= until), default=np.nan)
 
 
-_MEASURES = {
-    "field": ("V/m", "nominal electric field at the limit"),
-    "voltage": ("V", "voltage at the limit"),
-    "true_field": ("V/m", "true electric field at the limit"),
-    "highest_field": ("V/m", "largest nominal field that the stable branch reaches"),
-    "loss_of_tension_field": ("V/m", "nominal field at which tension is lost before"),
-    "breakdown_field_nominal": ("V/m", "nominal field of electrical breakdown before"),
-}
+def critical_names(electrical: ElectricalInput) -> dict[str, str]:
+    """Names in the result of the largest value reached, and of those at loss of tension and at breakdown."""
+    name = electrical.argument
+    breakdown = "breakdown_field_nominal" if electrical is ELECTRIC_FIELD else f"breakdown_{name}"
+    return {"highest": f"highest_{name}", "tension": f"loss_of_tension_{name}", "breakdown": breakdown}
+
+
+def _measures(electrical: ElectricalInput) -> dict[str, tuple[str, str]]:
+    """Unit and long name of every number of a limit, by its name."""
+    name, unit, text = electrical.argument, electrical.unit, electrical.long_name
+    nominal = text.replace("electric ", "")
+    of = critical_names(electrical)
+    voltage = {"voltage": ("V", "voltage at the limit")} if electrical is ELECTRIC_FIELD else {}
+    return {
+        name: (unit, f"{text} at the limit"),
+        **voltage,
+        "true_field": ("V/m", "true electric field at the limit"),
+        of["highest"]: (unit, f"largest {nominal} that the stable branch reaches"),
+        of["tension"]: (unit, f"{nominal} at which tension is lost before"),
+        of["breakdown"]: (unit, f"{nominal} of electrical breakdown before"),
+    }
 
 
 def _variables(cases: Cases, found: list[tuple[Statics, Limit]]) -> dict[str, tuple]:
     dimensions, shape = tuple(cases.grid.axes), cases.grid.shape
-    limits = [limit for _, limit in found]
+    limits, electrical = [limit for _, limit in found], electrical_input(cases.model)
+    of = critical_names(electrical)
 
     def numbers(values: list[float]) -> np.ndarray:
         return np.array(values, dtype=float).reshape(shape)
 
     columns = {
-        "field": [limit.field for limit in limits],
+        electrical.argument: [limit.field for limit in limits],
         "voltage": [
             limit.field * 2 * material(statics.problem, "half_thickness") for statics, limit in found
         ],
         "true_field": [_at(limit, lambda x, of=statics: true_field(of, x)) for statics, limit in found],
-        "highest_field": [limit.highest_field for limit in limits],
-        "loss_of_tension_field": [limit.loss_of_tension_field for limit in limits],
-        "breakdown_field_nominal": [limit.breakdown_field for limit in limits],
+        of["highest"]: [limit.highest_field for limit in limits],
+        of["tension"]: [limit.loss_of_tension_field for limit in limits],
+        of["breakdown"]: [limit.breakdown_field for limit in limits],
     }
     data = {
         name: variable(dimensions, numbers(columns[name]), unit, long_name)
-        for name, (unit, long_name) in _MEASURES.items()
+        for name, (unit, long_name) in _measures(electrical).items()
     }
     for place, entry in enumerate(cases.model.STATE):
         values = [_at(limit, lambda x, of=statics, at=place: of.state(x)[at]) for statics, limit in found]
@@ -212,7 +233,11 @@ def _variables(cases: Cases, found: list[tuple[Statics, Limit]]) -> dict[str, tu
         data[alias] = data[name]
     texts = {
         "found": ([limit.status for limit in limits], "what ends the branch", {"meaning": _STATUS_MEANING}),
-        "first_limit": ([limit.first for limit in limits], "what comes first as the field grows", {}),
+        "first_limit": (
+            [limit.first for limit in limits],
+            f"what comes first as the {electrical.text} grows",
+            {},
+        ),
     }
     for name, (values, long_name, more) in texts.items():
         array = np.array(values, dtype=object).reshape(shape)
@@ -226,7 +251,8 @@ def _at(limit: Limit, value: Callable[[np.ndarray], float]) -> float:
 
 def _attributes(cases: Cases, dashpots: str, criteria: Criteria) -> dict[str, object]:
     return cases.attributes(dashpots) | {
-        "definition": "limit point of the equilibrium of the unloaded membrane as the force and then the field grow",
+        "definition": "limit point of the equilibrium of the unloaded membrane as the force and then the "
+        f"{electrical_input(cases.model).text} grow",
         "dashpots_meaning": f"{FROZEN_MEANING}; {RELAXED_MEANING}",
         "breakdown_field": np.inf if criteria.breakdown_field is None else criteria.breakdown_field,
         "breakdown_field_units": "V/m",
@@ -234,5 +260,4 @@ def _attributes(cases: Cases, dashpots: str, criteria: Criteria) -> dict[str, ob
         "breakdown_definition": BREAKDOWN_DEFINITION,
         "smallest_tension": criteria.smallest_tension,
         "smallest_tension_units": "Pa",
-        "varied_input": FIELD,
     }

@@ -1,4 +1,4 @@
-"""Equilibria at one value of the field, wherever they are: Newton's method from a grid of stretches, all at once."""
+"""Equilibria at one value of field or charge, wherever they are: Newton's method from a grid of stretches at once."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ import numpy as np
 
 from delagrange import loss
 from delagrange.analysis.continuation import Lost, solve
+from delagrange.analysis.rest.chart import within_limits
 from delagrange.analysis.rest.statics import TOLERANCE, Statics, with_relaxed_dashpots
 from delagrange.dashpots import coordinate_places
 
@@ -44,12 +45,22 @@ def _starts(statics: Statics) -> np.ndarray:
     """States over a grid of the coordinates, (n_state, n_lanes), all within the limits."""
     model, limits = statics.problem.model, statics.limits
     count = model.COORDINATE_COUNT
-    along = np.geomspace(limits.smallest_stretch, limits.largest_stretch, _STARTS.get(count, 10))
-    grid = np.array(list(product(along, repeat=count))).T
+    grid = np.array(list(product(*(_along(statics, place) for place in range(count))))).T
     states = np.repeat(statics.rest[:, None], grid.shape[1], axis=1)
     states[coordinate_places(model)] = grid
-    principal = model.principal_stretches(states, tuple(statics.inputs), statics.problem.parameters)
-    return with_relaxed_dashpots(statics, states[:, loss.margin(principal, limits) > 0])
+    arguments = states, tuple(statics.inputs), statics.problem.parameters
+    with np.errstate(all="ignore"):
+        validity = model.validity(*arguments) if hasattr(model, "validity") else None
+    kept = loss.margin(model.principal_stretches(*arguments), limits, validity) > 0
+    return with_relaxed_dashpots(statics, states[:, kept])
+
+
+def _along(statics: Statics, place: int) -> np.ndarray:
+    """Values of the coordinate at `place`, from one limit to the other."""
+    limits, count = statics.limits, _STARTS.get(statics.problem.model.COORDINATE_COUNT, 10)
+    if statics.chart.logarithmic[place]:
+        return np.geomspace(limits.smallest_stretch, limits.largest_stretch, count)
+    return within_limits(statics.problem, statics.rest, place, count, limits)
 
 
 def _newton_over_lanes(statics: Statics, states: np.ndarray, value: float) -> np.ndarray:
@@ -60,9 +71,10 @@ def _newton_over_lanes(statics: Statics, states: np.ndarray, value: float) -> np
     with np.errstate(all="ignore"):
         for _ in range(_ITERATIONS):
             step = _steps(statics, states, tuple(inputs))
-            states[statics.unknowns] *= np.exp(np.clip(step, -_LARGEST_STRAIN, _LARGEST_STRAIN))
+            step = np.clip(step, -_LARGEST_STRAIN, _LARGEST_STRAIN)
+            states[statics.unknowns] = statics.chart.moved(states[statics.unknowns], step)
     settled = np.max(np.abs(step), axis=0) < _SAME
-    strains = np.log(states[statics.unknowns][:, settled])
+    strains = statics.chart.x_of(states[statics.unknowns][:, settled])
     return np.column_stack([strains.T, np.full(strains.shape[1], value)])
 
 
@@ -74,7 +86,7 @@ def _steps(statics: Statics, states: np.ndarray, inputs: tuple) -> np.ndarray:
     rates = np.broadcast_to(model.rhs(*arguments), states.shape)[statics.rows]
     jacobian = model.jacobian(*arguments)
     jacobian = np.broadcast_to(jacobian, (*jacobian.shape[:2], lanes))[np.ix_(statics.rows, statics.unknowns)]
-    slopes = np.moveaxis(jacobian * states[statics.unknowns], -1, 0)
+    slopes = np.moveaxis(jacobian * statics.chart.slopes(states[statics.unknowns]), -1, 0)
     sizes = np.linalg.norm(slopes, axis=2, keepdims=True)
     slopes, right = slopes / sizes, -rates.T[:, :, None] / sizes
     regular = np.all(np.isfinite(slopes), axis=(1, 2)) & np.all(np.isfinite(right), axis=(1, 2))

@@ -1,6 +1,7 @@
-"""The equations of a membrane at rest: where its springs, forces and field balance.
+"""The equations of a membrane at rest: where its springs, forces and field, or charge, balance.
 
-The unknowns are the logarithms of the stretches: all are positive, and a step is a strain.
+The unknowns are the logarithms of the stretches: all are positive, and a step is a strain. A coordinate that is no
+stretch is measured as `chart` says.
 """
 
 from __future__ import annotations
@@ -13,21 +14,24 @@ import numpy as np
 
 from delagrange import checks, loss
 from delagrange.analysis.continuation import Evaluation, Lost, Settings, solve
+from delagrange.analysis.rest.chart import Chart, make_chart
 from delagrange.dashpots import (
     FROZEN,
     RELAXED,
     coordinate_places,
+    dashpot_count,
     dashpot_places,
     frozen,
     given_state,
     rate_places,
 )
+from delagrange.inputs import CHARGE_DENSITY, ElectricalInput, electrical_input
 from delagrange.loss import Limits
 from delagrange.models import check_offers
 from delagrange.problem import Problem
 
-FIELD, FORCE = "nominal_electric_field", "force"
 NEEDED = ("jacobian", "input_jacobian", "mass_matrix", "edge_forces")
+NEEDED_UNDER_CHARGE = ("potential_energy",)  # which knows how the permittivity depends on the stretches
 TOLERANCE = 1e-11  # of the last Newton correction of the strains; the error is its square, down to round-off
 _LARGEST_STRAIN = 50.0  # of the logarithms on the way; powers of stretches beyond are no numbers
 STEPS = Settings(
@@ -39,7 +43,8 @@ STEPS = Settings(
 class Statics:
     """A membrane at rest while one of its inputs varies.
 
-    A vector x, (n_unknowns + 1,), holds the logarithms of the unknown stretches, and the varied input last.
+    A vector x, (n_unknowns + 1,), holds what stands for the unknowns in the chart, the logarithms of stretches, and
+    the varied input last.
     """
 
     problem: Problem  # of single values; infinite viscosity where the dashpots are frozen
@@ -48,19 +53,27 @@ class Statics:
     varied: int  # place of the input that varies
     unknowns: np.ndarray  # places in the state
     rows: np.ndarray  # of the right-hand side that vanish at rest
+    chart: Chart  # of the unknowns
     limits: Limits
+
+    @cached_property
+    def electrical(self) -> ElectricalInput:
+        """What drives the electrodes."""
+        return electrical_input(self.problem.model)
 
     @cached_property
     def scale(self) -> np.ndarray:
         """(n_unknowns + 1,): strains of order one, and the input that strains the membrane so much."""
-        size = typical_field(self) if self.name == FIELD else self.typical_force
+        electric = self.name == self.electrical.name
+        size = typical_electrical(self) if electric else typical_input(self, self.name)
         return np.append(np.ones(len(self.unknowns)), size)
 
     @cached_property
     def typical_force(self) -> float:
         """The force [N] that would strain the membrane by 1 in the reference state, were it linear."""
-        strain = _reference_strain(self, FORCE)
-        return 1 / strain if strain > 0 else 1.0
+        forces = [entry.name for entry in self.problem.model.INPUTS if entry.unit == "N"]
+        sizes = [typical_input(self, name) for name in forces]
+        return min(sizes, default=1.0)
 
     @property
     def name(self) -> str:
@@ -82,12 +95,12 @@ class Statics:
     def state(self, x: np.ndarray) -> np.ndarray:
         """(n_state,)"""
         state = self.rest.copy()
-        state[self.unknowns] = np.exp(x[:-1])
+        state[self.unknowns] = self.chart.values(x[:-1])
         return state
 
     def x_of(self, state: np.ndarray, value: float) -> np.ndarray:
         """The vector of a state and a value of the varied input."""
-        return np.append(np.log(state[self.unknowns]), value)
+        return np.append(self.chart.x_of(state[self.unknowns]), value)
 
     def arguments(self, x: np.ndarray) -> tuple:
         """State, inputs and parameters, as the functions of a model want them."""
@@ -108,15 +121,21 @@ class Statics:
             rates = model.rhs(*arguments)[self.rows]
             slopes = model.jacobian(*arguments)[np.ix_(self.rows, self.unknowns)]
             by_input = model.input_jacobian(*arguments)[self.rows, self.varied]
-        return Evaluation(rates, np.column_stack([slopes * arguments[0][self.unknowns], by_input]))
+        along = self.chart.slopes(arguments[0][self.unknowns])
+        return Evaluation(rates, np.column_stack([slopes * along, by_input]))
 
     def outside(self, x: np.ndarray) -> str | None:
         """Why a branch ends at x: a principal stretch beyond the limits; None where all are within."""
+        model, arguments = self.problem.model, self.arguments(x)
         with np.errstate(all="ignore"):
-            principal = self.problem.model.principal_stretches(*self.arguments(x))
-        if np.all(np.isfinite(principal)) and loss.margin(principal, self.limits) > 0:
+            principal = model.principal_stretches(*arguments)
+            validity = model.validity(*arguments) if hasattr(model, "validity") else None
+        if np.all(np.isfinite(principal)) and loss.margin(principal, self.limits, validity) > 0:
             return None
-        if loss.kind_of_loss(principal, self.limits) == loss.DIVERGED:
+        kind = loss.kind_of_loss(principal, self.limits, validity)
+        if kind == loss.LOCKED:
+            return "limit: the strain energy ceases to hold"
+        if kind == loss.DIVERGED:
             return f"limit: a stretch beyond {self.limits.largest_stretch:g}"
         return f"limit: a principal stretch below {self.limits.smallest_stretch:g}"
 
@@ -124,7 +143,7 @@ class Statics:
 def make_statics(
     problem: Problem, dashpots: str, initial_state: Mapping[str, float] | None, limits: Limits
 ) -> Statics:
-    """The membrane of `problem`, whose drives are constant, at rest under a varied field.
+    """The membrane of `problem`, whose drives are constant, at rest while its electrical input varies.
 
     Raises:
         ValueError: dashpots neither frozen nor relaxed, a model without what is needed, a bad initial state.
@@ -132,17 +151,21 @@ def make_statics(
     model = problem.model
     checks.choice("dashpots", dashpots, (FROZEN, RELAXED))
     checks.instance("limits", limits, Limits)
-    check_offers(model, NEEDED, "an equilibrium")
+    electrical = electrical_input(model)  # which is what varies
+    under_charge = NEEDED_UNDER_CHARGE if electrical is CHARGE_DENSITY else ()
+    check_offers(model, (*NEEDED, *under_charge), "an equilibrium")
     flows = dashpots == RELAXED
     places = np.arange(len(model.STATE))
     flowing = places[dashpot_places(model)] if flows else places[:0]
+    unknowns = np.concatenate([places[coordinate_places(model)], flowing])
     return Statics(
         problem=problem if flows else frozen(problem),
         rest=at_rest(problem, initial_state),
         inputs=np.array(problem.inputs(0.0), dtype=float),
-        varied=input_place(problem, FIELD),
-        unknowns=np.concatenate([places[coordinate_places(model)], flowing]),
+        varied=input_place(problem, electrical.name),
+        unknowns=unknowns,
         rows=np.concatenate([places[rate_places(model)], flowing]),
+        chart=make_chart(problem, unknowns),
         limits=limits,
     )
 
@@ -176,14 +199,25 @@ def input_place(problem: Problem, name: str) -> int:
 
 
 def unloaded(statics: Statics) -> np.ndarray:
-    """x at rest without force and field, nearest the reference state.
+    """x at rest without force and field, or charge, nearest the reference state.
 
     Raises:
-        Lost: Newton's method does not find it.
+        Lost: Newton's method does not find it within the limits; where it begins outside of them, as in a membrane
+            that is held beyond what its energies allow, that is the reason.
     """
-    alone = statics.varying(FIELD, **{entry.name: 0.0 for entry in statics.problem.model.INPUTS})
+    alone = statics.varying(
+        statics.electrical.name, **{entry.name: 0.0 for entry in statics.problem.model.INPUTS}
+    )
     start = alone.x_of(with_relaxed_dashpots(alone, alone.rest[:, None])[:, 0], 0.0)
-    return solve(alone.residual, start, alone.scale, TOLERANCE).x
+    begins_outside = alone.outside(start)
+    try:
+        x = solve(alone.residual, start, alone.scale, TOLERANCE).x
+    except Lost as reason:
+        where = f"{begins_outside}, in the unloaded state from which it is looked for"
+        raise Lost(where if begins_outside else str(reason)) from None
+    if (outside := alone.outside(x)) is not None:
+        raise Lost(f"{outside}, in the unloaded state")
+    return x
 
 
 def with_relaxed_dashpots(statics: Statics, states: np.ndarray) -> np.ndarray:
@@ -194,27 +228,40 @@ def with_relaxed_dashpots(statics: Statics, states: np.ndarray) -> np.ndarray:
     model, states = statics.problem.model, np.array(states, dtype=float)
     if statics.relaxed:
         principal = model.principal_stretches(states, tuple(statics.inputs), statics.problem.parameters)
-        places = dashpot_places(model)
-        count = min(len(principal), len(states[places]))
-        states[places.start : places.start + count] = principal[:count]
+        places = np.arange(len(model.STATE))[dashpot_places(model)]
+        axes = max(1, len(places) // max(1, dashpot_count(model)))  # in which each dashpot flows
+        for order, place in enumerate(places):
+            states[place] = principal[order % min(axes, len(principal))]
     return states
 
 
-def typical_field(statics: Statics) -> float:
-    """The field [V/m] that would strain the membrane by 1 in the reference state, were it linear but for E^2."""
-    strain = _reference_strain(statics, FIELD)
+def typical_input(statics: Statics, name: str) -> float:
+    """The value of an input that would strain the membrane by 1 in the reference state, were it linear."""
+    strain = _reference_strain(statics, name)
+    return 1 / strain if strain > 0 else 1.0
+
+
+def typical_electrical(statics: Statics) -> float:
+    """The field [V/m], or charge [C/m^2], that would strain the membrane by 1 in the reference state, were it
+    linear but for E^2, or D^2.
+    """
+    strain = _reference_strain(statics, statics.electrical.name)
     return float(np.sqrt(2 / strain)) if strain > 0 else 1.0
 
 
 def _reference_strain(statics: Statics, name: str) -> float:
-    """Size of the slopes of all strains by an input, per unit of it, in the reference state with 1 unit of it."""
+    """Size of the slopes of all strains by an input, per unit of it, in the reference state.
+
+    The membrane is as stiff as without load there; what enters squared has the slope that it has at 1 unit.
+    """
     model, parameters = statics.problem.model, statics.problem.parameters
     place = input_place(statics.problem, name)
-    inputs = np.zeros(len(model.INPUTS))
-    inputs[place] = 1.0
-    arguments = np.asarray(model.reference_state(parameters), dtype=float), tuple(inputs), parameters
-    slopes = model.jacobian(*arguments)[np.ix_(statics.rows, statics.unknowns)]
-    by_input = model.input_jacobian(*arguments)[statics.rows, place]
+    state, without = np.asarray(model.reference_state(parameters), dtype=float), np.zeros(len(model.INPUTS))
+    slopes = model.jacobian(state, tuple(without), parameters)[np.ix_(statics.rows, statics.unknowns)]
+    slopes = slopes * statics.chart.slopes(state[statics.unknowns])
+    one = without.copy()
+    one[place] = 1.0
+    by_input = model.input_jacobian(state, tuple(one), parameters)[statics.rows, place]
     sizes = np.linalg.norm(slopes, axis=1)
     sizes = np.where(sizes > 0, sizes, 1.0)
     return float(np.linalg.norm(np.linalg.lstsq(slopes / sizes[:, None], by_input / sizes)[0]))

@@ -77,12 +77,15 @@ def relaxing_vibration(statics: Statics, x: np.ndarray) -> tuple[Vibration, np.n
     """
     jacobian = statics_jacobian(statics, x)
     values, vectors = np.linalg.eig(jacobian)
-    vibrating = np.flatnonzero(values.imag > 0)
+    round_off = _GROWS * np.max(np.abs(values))  # by which equal real rates, as of equal branches, come apart
+    vibrating = np.flatnonzero(values.imag > round_off)
     vibrating = vibrating[np.argsort(values.imag[vibrating])]
     shapes = vectors[coordinate_places(statics.problem.model)][:, vibrating]
     turned = [_turned_real(shape) for shape in shapes.T]
     shapes = np.array(turned).T if turned else np.zeros((len(shapes), 0))
-    return Vibration(values[vibrating], _normalised(shapes)), np.sort(values[values.imag == 0].real)
+    return Vibration(values[vibrating], _normalised(shapes)), np.sort(
+        values[np.abs(values.imag) <= round_off].real
+    )
 
 
 def statics_jacobian(statics: Statics, x: np.ndarray) -> np.ndarray:

@@ -3,19 +3,45 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from types import ModuleType
 
 import numpy as np
 
 from delagrange import checks
+from delagrange.analysis.steady.load import LOAD_UNITS
 from delagrange.analysis.steady.search import Range
-from delagrange.analysis.steady.shooting import LOAD_UNITS
-from delagrange.parameters import CHANGEABLE_UNITS, check_material_names
+from delagrange.inputs import ELECTRICAL, ElectricalInput, electrical_input
+from delagrange.material import Material
 from delagrange.units import shown, with_unit
 
 _MOST_VIBRATIONS = 10_000
 
 
-def varied_load(given: Mapping[str, object]) -> tuple[str, Range, dict[str, float]]:
+def electrical_numbers(model: ModuleType, **given: object) -> tuple[ElectricalInput, dict[str, object]]:
+    """The electrical input of a model, and the amplitude and the bias of its sine by their names.
+
+    given: field_amplitude, field_bias, charge_amplitude, charge_bias; None: left out
+
+    Raises:
+        ValueError: those of the other input are given, or the amplitude of this one is not.
+    """
+    electrical = electrical_input(model)
+    for name in (name for each in ELECTRICAL.values() for name in (each.amplitude, each.bias)):
+        foreign = name not in (electrical.amplitude, electrical.bias)
+        if foreign and given[name] is not None and not (np.ndim(given[name]) == 0 and given[name] == 0):
+            raise ValueError(
+                f"{name} given as {shown(given[name])}, but the electrical input of {model.MODEL} is "
+                f"{electrical.name} [{electrical.unit}]; give {electrical.amplitude} and {electrical.bias}"
+            )
+    if given[electrical.amplitude] is None:
+        raise ValueError(f"{electrical.amplitude} [{electrical.unit}] must be given, got none")
+    bias = 0.0 if given[electrical.bias] is None else given[electrical.bias]
+    return electrical, {electrical.amplitude: given[electrical.amplitude], electrical.bias: bias}
+
+
+def varied_load(
+    given: Mapping[str, object], electrical: ElectricalInput
+) -> tuple[str, Range, dict[str, float]]:
     """Name and range of what is varied, and the load at its start.
 
     Raises:
@@ -31,9 +57,10 @@ def varied_load(given: Mapping[str, object]) -> tuple[str, Range, dict[str, floa
     load = {name: load_number(name, value) for name, value in given.items() if name != varied}
     ends = _ends(varied, given[varied])
     load[varied] = ends[0]
-    if varied != "field_amplitude" and load["field_amplitude"] == 0:
+    name = electrical.amplitude
+    if varied != name and load[name] == 0:
         raise ValueError(
-            "field_amplitude must be positive, got 0 V/m: without it nothing drives a periodic motion"
+            f"{name} must be positive, got 0 {electrical.unit}: without it nothing drives a periodic motion"
         )
     return varied, Range(*ends), load
 
@@ -57,15 +84,15 @@ def load_number(name: str, value: object) -> float:
     unit = LOAD_UNITS[name]
     check = checks.positive if name == "frequency" else checks.finite
     number = checks.scalar(name, check(name, value, unit), unit)
-    if name == "field_amplitude" and number < 0:
-        raise ValueError(f"field_amplitude must not be negative, got {number:g} V/m")
+    if name.endswith("_amplitude") and number < 0:
+        raise ValueError(f"{name} must not be negative, got {with_unit(number, unit)}")
     return number
 
 
 def check_frequencies(lowest: float, fastest: float) -> None:
-    """Refuse a period of the field in which the membrane would vibrate for ever.
+    """Refuse a period of the drive in which the membrane would vibrate for ever.
 
-    lowest: of the field [Hz]; fastest: small vibration of the membrane [Hz]
+    lowest: of field or charge [Hz]; fastest: small vibration of the membrane [Hz]
 
     Raises:
         ValueError: more than 10000 vibrations in a period.
@@ -78,17 +105,15 @@ def check_frequencies(lowest: float, fastest: float) -> None:
         )
 
 
-def single_material(changes: Mapping[str, object]) -> dict[str, float]:
+def single_material(changes: Mapping[str, object], material: Material) -> dict[str, float]:
     """Single values of the material by name.
 
     Raises:
         ValueError: an unknown name, or not a single positive number.
     """
-    check_material_names(changes)
+    material.check_names(changes)
     return {
-        name: checks.scalar(
-            name, checks.positive(name, value, CHANGEABLE_UNITS[name]), CHANGEABLE_UNITS[name]
-        )
+        name: checks.scalar(name, material.checked(name, value), material.units[name])
         for name, value in changes.items()
     }
 

@@ -10,17 +10,13 @@ import xarray as xr
 
 from delagrange.analysis.steady import floquet
 from delagrange.analysis.steady.branches import Findings
+from delagrange.analysis.steady.load import LOAD_UNITS, load_names
 from delagrange.analysis.steady.search import Search
-from delagrange.analysis.steady.shooting import LOAD_UNITS, Orbit
+from delagrange.analysis.steady.shooting import Orbit
 from delagrange.dataset import variable
+from delagrange.inputs import ELECTRIC_FIELD, ElectricalInput, electrical_input
 
 PERIODIC_AMPLITUDE = "half of peak to peak over one period of the periodic motion, without any transient"
-_LOAD_NAMES = {
-    "force": "applied force",
-    "field_amplitude": "amplitude of the nominal electric field",
-    "field_bias": "bias of the nominal electric field",
-    "frequency": "frequency of the electric field",
-}
 _CLOSURE = "distance between the state at the end of the period and at its begin, in units of typical sizes"
 _PRODUCT = (
     "|product of the multipliers / exp(integral of the divergence) - 1|, zero but for the numerical error; from "
@@ -45,10 +41,11 @@ def steady_dataset(search: Search, findings: Findings, attributes: Mapping[str, 
 def _motion_variables(search: Search, orbits: list[Orbit], dimension: str, prefix: str) -> dict[str, tuple]:
     """Loads, and the extrema of every coordinate; those of the first go without its name."""
     data = {}
-    for name, unit in LOAD_UNITS.items():
-        values = np.array([orbit.load[name] for orbit in orbits], dtype=float)
-        data[prefix + name] = variable(dimension, values, unit, _LOAD_NAMES[name])
     model = search.shooting.path.problem.model
+    electrical = electrical_input(model)
+    for name, long_name in zip(load_names(electrical), _long_names(electrical), strict=True):
+        values = np.array([orbit.load[name] for orbit in orbits], dtype=float)
+        data[prefix + name] = variable(dimension, values, LOAD_UNITS[name], long_name)
     for what in ("amplitude", "maximum", "minimum"):
         extrema = np.array([getattr(orbit, what) for orbit in orbits], dtype=float)
         extrema = extrema.reshape(len(orbits), model.COORDINATE_COUNT)
@@ -60,12 +57,19 @@ def _motion_variables(search: Search, orbits: list[Orbit], dimension: str, prefi
     return data
 
 
+def _long_names(electrical: ElectricalInput) -> tuple[str, str, str, str]:
+    """Of the numbers of the load, in their order."""
+    text, sine = electrical.long_name, "electric field" if electrical is ELECTRIC_FIELD else "charge"
+    return "applied force", f"amplitude of the {text}", f"bias of the {text}", f"frequency of the {sine}"
+
+
 def _state_variables(search: Search, orbits: list[Orbit]) -> dict[str, tuple]:
     entries = search.shooting.path.problem.model.STATE
+    stem = electrical_input(search.shooting.path.problem.model).stem
     states = np.array([orbit.state for orbit in orbits]).reshape(len(orbits), len(entries))
     data = {
         entry.name: variable(
-            "point", states[:, place], entry.unit, f"{entry.meaning}, at phase 0 of the field", entry.symbol
+            "point", states[:, place], entry.unit, f"{entry.meaning}, at phase 0 of the {stem}", entry.symbol
         )
         for place, entry in enumerate(entries)
     }

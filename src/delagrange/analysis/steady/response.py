@@ -1,4 +1,4 @@
-"""The periodic response to a sine field, stable or not, along a frequency, a force or a field."""
+"""The periodic response to a sine of field or charge, stable or not, along a frequency, a force or an amplitude."""
 
 from __future__ import annotations
 
@@ -12,24 +12,29 @@ import xarray as xr
 from delagrange import checks
 from delagrange.analysis.continuation import Settings
 from delagrange.analysis.forcing import enters_squared, fastest_vibration
-from delagrange.analysis.rest.statics import FIELD, Statics, input_place, make_statics
+from delagrange.analysis.rest.arguments import refuse_electrical
+from delagrange.analysis.rest.statics import Statics, input_place, make_statics
 from delagrange.analysis.steady.arguments import (
     check_frequencies,
+    electrical_numbers,
     seed_values,
     single_material,
     varied_load,
 )
 from delagrange.analysis.steady.branches import find_branches
 from delagrange.analysis.steady.dataset import PERIODIC_AMPLITUDE, steady_dataset
+from delagrange.analysis.steady.load import load_names, sine_of, with_electrical
 from delagrange.analysis.steady.search import Range, Search
-from delagrange.analysis.steady.shooting import Shooting, sine_field
-from delagrange.dashpots import FROZEN, dashpot_places
+from delagrange.analysis.steady.shooting import Shooting
+from delagrange.dashpots import FROZEN, dashpot_places, is_damped
 from delagrange.dataset import run_attributes
 from delagrange.drive import Constant
 from delagrange.flow import Path, typical_sizes
 from delagrange.flows import resolve_flow
 from delagrange.initial import PREFIX
+from delagrange.inputs import FORCE, constant_inputs, electrical_input, has_input
 from delagrange.loss import Limits
+from delagrange.model_material import material_of
 from delagrange.models import load_model
 from delagrange.parameters import SHENG_2015, Parameters
 from delagrange.problem import Problem, make_problem
@@ -44,9 +49,12 @@ def steady_response(
     model: str | ModuleType,
     *,
     frequency: tuple[float, float] | float,
-    field_amplitude: tuple[float, float] | float,
+    field_amplitude: tuple[float, float] | float | None = None,
+    charge_amplitude: tuple[float, float] | float | None = None,
     force: tuple[float, float] | float = 0.0,
+    inputs: Mapping[str, float] | None = None,
     field_bias: tuple[float, float] | float = 0.0,
+    charge_bias: tuple[float, float] | float = 0.0,
     dashpots: str = FROZEN,
     held_stretch: float | None = None,
     formulation: str | None = None,
@@ -77,6 +85,9 @@ def steady_response(
     missing cannot be promised.
 
     Args:
+        inputs: constant values of any other input but the field by its name, as {"force_2": 0.3}.
+        charge_amplitude, charge_bias: [C/m^2] of the nominal charge density, numbers or one of them a pair, instead
+            of those of the field, under charge control; the result names them so.
         dashpots: "frozen": they stand at the reference or at `initial_state`, nothing damps, and the peak of a
             resonance has no top: its sides rise to a limit. "relaxed": they flow, and are periodic with the motion.
         initial_state: where frozen dashpots stand, by name of the state variable.
@@ -105,18 +116,28 @@ def steady_response(
         ValueError: something given makes no sense; the message names it, its value, its unit and what is allowed.
     """
     module = load_model(model, formulation, lateral_dashpot)
+    electrical, numbers = electrical_numbers(
+        module,
+        field_amplitude=field_amplitude,
+        field_bias=field_bias,
+        charge_amplitude=charge_amplitude,
+        charge_bias=charge_bias,
+    )
     given = {
         "force": force,
-        "field_amplitude": field_amplitude,
-        "field_bias": field_bias,
+        **numbers,
         "frequency": frequency,
     }
-    varied, whole, load = varied_load(given)
-    material = single_material(material)
+    varied, whole, load = varied_load(given, electrical)
+    refuse_electrical(module, inputs)
+    constant = constant_inputs(module, inputs, "a steady response")
+    membrane = material_of(module, parameters)
+    material = single_material(material, membrane)
     for value in (whole.start, whole.stop):  # both ends must be computable
         fixed = {**load, varied: value}
-        problem = make_problem(module, parameters, material, held_stretch, fixed["force"], sine_field(fixed))
-    resting = make_problem(module, parameters, material, held_stretch, load["force"], 0.0)
+        driven = with_electrical(module, constant, sine_of(fixed, electrical))
+        problem = make_problem(module, parameters, material, held_stretch, fixed["force"], 0.0, driven)
+    resting = make_problem(module, parameters, material, held_stretch, load["force"], 0.0, constant)
     statics = make_statics(resting, dashpots, initial_state, limits)
     settings = _settings(resolution, most_points)
     lowest = min(whole.start, whole.stop) if varied == "frequency" else load["frequency"]
@@ -125,15 +146,14 @@ def steady_response(
     ceiling = (
         np.inf if largest_amplitude is None else checks.positive("largest_amplitude", largest_amplitude, "1")
     )
-    search = Search(
-        shooting, whole, settings, dashpots == FROZEN, checks.scalar("largest_amplitude", ceiling, "1")
-    )
+    conservative = dashpots == FROZEN and not is_damped(resting)
+    search = Search(shooting, whole, settings, conservative, checks.scalar("largest_amplitude", ceiling, "1"))
     values = seed_values(whole, seeds, varied)
     with progress_bar(progress, f"{module.MODEL} steady response", len(values), "starts") as bar:
         findings = find_branches(
             search, statics, values, checks.count("most_branches", most_branches, 1), bar
         )
-    about = run_attributes(problem, parameters.replace(**material), limits)
+    about = run_attributes(problem, membrane.replace(**material), limits)
     about |= {PREFIX + name: float(value) for name, value in (initial_state or {}).items()}
     return steady_dataset(search, findings, about | _attributes(search, dashpots, findings.search))
 
@@ -187,17 +207,24 @@ def _shooting(
 
 
 def _doubles(statics: Statics, varied: str, load: Mapping[str, float]) -> bool:
-    """Whether the membrane is forced at twice the frequency of the field."""
-    biased = varied == "field_bias" or load["field_bias"] != 0
-    return not biased and enters_squared(statics.problem, input_place(statics.problem, FIELD), statics.rest)
+    """Whether the membrane is forced at twice the frequency of the field, or charge."""
+    electrical = statics.electrical
+    biased = varied == electrical.bias or load[electrical.bias] != 0
+    place = input_place(statics.problem, electrical.name)
+    return not biased and enters_squared(statics.problem, place, statics.rest)
 
 
 def _attributes(search: Search, dashpots: str, ending: str) -> dict[str, object]:
     shooting = search.shooting
-    sines = "1/(2 f): the field enters squared, without bias" if shooting.per_sine == 2 else "1/f"
+    electrical = electrical_input(shooting.path.problem.model)
+    _, amplitude, bias, _ = load_names(electrical)
+    sines = (
+        f"1/(2 f): the {electrical.stem} enters squared, without bias" if shooting.per_sine == 2 else "1/f"
+    )
     return {
-        "nominal_electric_field_drive": "field_bias + field_amplitude * sin(2 pi frequency t)",
-        "force_drive": "Constant(force)",
+        f"{electrical.name}_drive": f"{bias} + {amplitude} * sin(2 pi frequency t)",
+        "varied_input": electrical.name,
+        **({"force_drive": "Constant(force)"} if has_input(shooting.path.problem.model, FORCE) else {}),
         "varied": shooting.varied,
         "forcing_period": sines,
         "period_multiple": shooting.multiple,
@@ -211,10 +238,13 @@ def _attributes(search: Search, dashpots: str, ending: str) -> dict[str, object]
 
 
 def _explanation(search: Search, dashpots: str) -> str:
+    stem = electrical_input(search.shooting.path.problem.model).stem
     if search.shooting.per_sine == 2:
-        text = "The field enters squared: its sine of frequency f forces at 2 f; a mode f_n resonates at f = f_n/2. "
+        text = f"The {stem} enters squared: its sine of frequency f forces at 2 f; a mode f_n resonates at f = f_n/2. "
     else:
-        text = "With a bias the field forces at f and 2 f; a mode f_n resonates at f = f_n and at f_n/2. "
+        text = f"With a bias the {stem} forces at f and 2 f; a mode f_n resonates at f = f_n and at f_n/2. "
+    if dashpots == FROZEN and not search.conservative:
+        return text + "Dashpots frozen; a parallel dashpot or the medium damps, and stable motions attract."
     if dashpots == FROZEN:
         return (
             text + "Dashpots frozen: nothing damps, neutral motions attract nothing, resonances have no top."

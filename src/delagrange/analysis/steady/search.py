@@ -19,7 +19,8 @@ from delagrange.analysis.continuation import (
 )
 from delagrange.analysis.steady import floquet
 from delagrange.analysis.steady.floquet import Bifurcation
-from delagrange.analysis.steady.shooting import LOAD_UNITS, Shooting
+from delagrange.analysis.steady.load import LOAD_UNITS
+from delagrange.analysis.steady.shooting import Shooting
 from delagrange.units import with_unit
 
 _ON_BRANCH = 0.1  # of the chord between neighbours: nearer to it, a solution is on their branch

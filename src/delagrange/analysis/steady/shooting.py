@@ -1,4 +1,4 @@
-"""Periodic motions under a sine field by shooting: the state at phase 0 that comes back after a period.
+"""Periodic motions under a sine of field or charge by shooting: the state at phase 0 that comes back after a period.
 
 Residual y(T) - y(0), with the slopes from the variational equations that travel along with the motion. Source:
 Seydel (2010), Practical Bifurcation and Stability Analysis, 3rd ed., Springer, Ch. 7.
@@ -16,23 +16,11 @@ import numpy as np
 
 from delagrange import loss
 from delagrange.analysis.continuation import Evaluation, Lost
-from delagrange.analysis.rest.statics import FIELD, FORCE, input_place
-from delagrange.drive import Constant, Drive, Sine
-from delagrange.flow import AMPLITUDE, BIAS, FREQUENCY, Flow, Path, Source, Travel
+from delagrange.analysis.rest.statics import input_place
+from delagrange.analysis.steady.load import LOAD_UNITS, source_of, under_load
+from delagrange.flow import Flow, Path, Source, Travel
+from delagrange.inputs import electrical_input
 from delagrange.problem import Problem
-
-LOAD_UNITS: Mapping[str, str] = {
-    "force": "N",
-    "field_amplitude": "V/m",
-    "field_bias": "V/m",
-    "frequency": "Hz",
-}
-_SOURCES = {
-    "force": (FORCE, BIAS),
-    "field_amplitude": (FIELD, AMPLITUDE),
-    "field_bias": (FIELD, BIAS),
-    "frequency": (FIELD, FREQUENCY),
-}
 
 
 class Parts(NamedTuple):
@@ -47,7 +35,9 @@ class Orbit:
     """A motion over one period; periodic as well as its shooting is solved."""
 
     state: np.ndarray  # (n_state,) at phase 0
-    load: Mapping[str, float]  # force [N], field_amplitude, field_bias [V/m], frequency [Hz]
+    load: Mapping[
+        str, float
+    ]  # force [N], amplitude and bias of field [V/m] or charge [C/m^2], frequency [Hz]
     period: float  # [s]
     monodromy: np.ndarray  # (n_unknowns, n_unknowns), of the unknowns in units of their typical sizes
     slopes: np.ndarray  # (n_unknowns, n_unknowns + 1), of the shooting in units of its scale
@@ -77,7 +67,9 @@ class Shooting:
     load: Mapping[str, float]  # the numbers that do not vary; that of the varied one is not used
     varied: str  # its name in the load
     size: float  # typical size of the varied number, in its unit
-    per_sine: int  # forcing periods in a period of the sine: 2 where the field enters squared without bias
+    per_sine: (
+        int  # forcing periods in a period of the sine: 2 where field or charge enters squared without bias
+    )
     multiple: int = 1  # forcing periods in a period of the motion
 
     @property
@@ -98,10 +90,8 @@ class Shooting:
         return self.multiple / (self.per_sine * load["frequency"])
 
     def problem(self, load: Mapping[str, float]) -> Problem:
-        """The membrane under a load."""
-        problem = self.path.problem
-        drives = {FORCE: Constant(load["force"]), FIELD: sine_field(load)}
-        return replace(problem, drives=tuple(drives[entry.name] for entry in problem.model.INPUTS))
+        """The membrane under a load; inputs that are no part of it stay as they are."""
+        return under_load(self.path.problem, load)
 
     def state(self, x: np.ndarray) -> np.ndarray:
         """(n_state,)"""
@@ -190,13 +180,8 @@ class Shooting:
 
     def _columns(self) -> tuple[np.ndarray, tuple[Source | None, ...]]:
         """Unit vectors in units of the weights, and a column that starts at zero for the varied number."""
-        name, number = _SOURCES[self.varied]
+        name, number = source_of(self.varied, electrical_input(self.path.problem.model))
         tangent = np.zeros((len(self.rest), len(self.unknowns) + 1))
         tangent[self.unknowns, range(len(self.unknowns))] = self.path.weights[self.unknowns]
         source = Source(input_place(self.path.problem, name), number)
         return tangent, (*(None,) * len(self.unknowns), source)
-
-
-def sine_field(load: Mapping[str, float]) -> Drive:
-    """bias + amplitude sin(2 pi f t), at phase 0 at t = 0."""
-    return Sine(load["field_amplitude"], load["frequency"], load["field_bias"])

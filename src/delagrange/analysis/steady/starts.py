@@ -1,4 +1,4 @@
-"""Periodic motions to start branches from: grown with the field, or near rest under its mean square."""
+"""Periodic motions to start branches from: grown with field or charge, or near rest under its mean square."""
 
 from __future__ import annotations
 
@@ -10,9 +10,11 @@ import numpy as np
 
 from delagrange.analysis.continuation import Lost, Settings, continue_branch, solve
 from delagrange.analysis.rest.seeds import equilibria_at
-from delagrange.analysis.rest.statics import FIELD, Statics
+from delagrange.analysis.rest.statics import Statics
+from delagrange.analysis.steady.load import forces_of
 from delagrange.analysis.steady.search import Range, Search
 from delagrange.analysis.steady.shooting import Shooting
+from delagrange.inputs import ElectricalInput, electrical_input
 
 _FARTHEST = 1.5  # of the wanted amplitude of the field: folds back from beyond are followed that far
 _GROWTH = Settings(
@@ -30,7 +32,7 @@ class Start:
 
 Equilibria = Callable[
     [float, float], list[np.ndarray]
-]  # states, (n_state,), under a force [N] and a field [V/m]
+]  # states, (n_state,), under a force [N] and a field [V/m], or charge [C/m^2]
 
 
 def equilibria_of(statics: Statics) -> Equilibria:
@@ -38,30 +40,39 @@ def equilibria_of(statics: Statics) -> Equilibria:
 
     @cache
     def found(force: float, field: float) -> list[np.ndarray]:
-        loaded = statics.varying(FIELD, force=force)
+        loaded = statics.varying(statics.electrical.name, **forces_of(statics.problem, {"force": force}))
         return [loaded.state(x) for x in equilibria_at(loaded, field)]
 
     return found
 
 
+def electrical_of(search: Search) -> ElectricalInput:
+    """The electrical input of the membrane of a search."""
+    return electrical_input(search.shooting.path.problem.model)
+
+
 def starts(search: Search, equilibria: Equilibria, value: float) -> Iterator[Start]:
     """Periodic motions at a value of the varied number; the same one may come more than once."""
-    load = search.shooting.at(value)
-    for rest in equilibria(load["force"], load["field_bias"]):
+    load, electrical = search.shooting.at(value), electrical_of(search)
+    bias, amplitude = load[electrical.bias], load[electrical.amplitude]
+    for rest in equilibria(load["force"], bias):
         for state in _grown(search, rest, load):
-            yield Start(search.shooting.x_of(state, value), "grown with the field from an equilibrium")
-    mean_square = load["field_bias"] ** 2 + load["field_amplitude"] ** 2 / 2
+            yield Start(
+                search.shooting.x_of(state, value), f"grown with the {electrical.stem} from an equilibrium"
+            )
+    mean_square = bias**2 + amplitude**2 / 2
     for rest in equilibria(load["force"], float(np.sqrt(mean_square))):
         yield from _solved(search, rest, value)
 
 
 def _grown(search: Search, state: np.ndarray, load: dict[str, float]) -> Iterator[np.ndarray]:
-    """States at phase 0, at the wanted amplitude of the field, of the motions that grow with it from an equilibrium."""
-    target = load["field_amplitude"]
+    """States at phase 0, at the wanted amplitude of field or charge, of what grows with it from an equilibrium."""
+    name = electrical_of(search).amplitude
+    target = load[name]
     if target == 0:
         yield state
         return
-    shooting = search.shooting.varying("field_amplitude", target, **load)
+    shooting = search.shooting.varying(name, target, **load)
     growth = Search(
         shooting, Range(0.0, _FARTHEST * target), _GROWTH, search.conservative, search.largest_amplitude
     )
@@ -80,4 +91,5 @@ def _solved(search: Search, state: np.ndarray, value: float) -> Iterator[Start]:
     except Lost:
         return
     if search.outside(found.x) is None:
-        yield Start(found.x, "found near the equilibrium under the mean square of the field")
+        stem = electrical_of(search).stem
+        yield Start(found.x, f"found near the equilibrium under the mean square of the {stem}")

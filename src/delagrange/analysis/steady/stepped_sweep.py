@@ -10,17 +10,19 @@ import numpy as np
 import xarray as xr
 
 from delagrange import checks, loss
+from delagrange.analysis.rest.arguments import refuse_electrical
 from delagrange.analysis.rest.seeds import equilibria_at
-from delagrange.analysis.rest.statics import FIELD, FORCE, Statics, make_statics
+from delagrange.analysis.rest.statics import Statics, make_statics
 from delagrange.analysis.rest.vibration import growing_directions
-from delagrange.analysis.steady.arguments import load_number, single_material
-from delagrange.analysis.steady.shooting import LOAD_UNITS, sine_field
-from delagrange.dashpots import FROZEN, RELAXED, given_state
+from delagrange.analysis.steady.arguments import electrical_numbers, load_number, single_material
+from delagrange.analysis.steady.load import LOAD_UNITS, forces_of, sine_of, under_load, with_electrical
+from delagrange.dashpots import FROZEN, RELAXED, given_state, is_damped
 from delagrange.dataset import run_attributes, status_time_variable, status_variable, variable
-from delagrange.drive import Constant
 from delagrange.flow import Flow, Path, typical_sizes
 from delagrange.flows import resolve_flow
+from delagrange.inputs import ELECTRIC_FIELD, constant_inputs, electrical_input
 from delagrange.loss import COMPLETED, INTERRUPTED, Limits
+from delagrange.model_material import material_of
 from delagrange.models import load_model
 from delagrange.parameters import SHENG_2015, Parameters
 from delagrange.problem import Problem, make_problem
@@ -28,7 +30,7 @@ from delagrange.progress import Progress, progress_bar
 from delagrange.units import with_unit
 
 _TOLERANCES = (1e-14, 1e-6)
-_LAST = "half of peak to peak over the last {measure} periods of the field at each frequency, after {settle} to settle"
+_LAST = "half of peak to peak over the last {measure} periods of the {stem} at each frequency, after {settle} to settle"
 
 
 @dataclass(frozen=True)
@@ -42,13 +44,8 @@ class _Sweep:
     measure: int
 
     def at(self, frequency: float) -> Path:
-        drives = {
-            FORCE: Constant(self.load["force"]),
-            FIELD: sine_field({**self.load, "frequency": frequency}),
-        }
-        problem = self.path.problem
-        drives_in_order = tuple(drives[entry.name] for entry in problem.model.INPUTS)
-        return replace(self.path, problem=replace(problem, drives=drives_in_order))
+        load = {**self.load, "frequency": frequency}
+        return replace(self.path, problem=under_load(self.path.problem, load))
 
 
 @dataclass
@@ -66,9 +63,12 @@ def stepped_sweep(
     model: str | ModuleType,
     *,
     frequency: np.ndarray,
-    field_amplitude: float,
+    field_amplitude: float | None = None,
+    charge_amplitude: float | None = None,
     force: float = 0.0,
+    inputs: Mapping[str, float] | None = None,
     field_bias: float = 0.0,
+    charge_bias: float = 0.0,
     dashpots: str = RELAXED,
     settle: int = 200,
     measure: int = 20,
@@ -93,6 +93,9 @@ def stepped_sweep(
     Args:
         frequency: [Hz], strictly increasing or strictly decreasing.
         field_amplitude, field_bias: [V/m]; force: [N].
+        charge_amplitude, charge_bias: of the nominal charge density [C/m^2], instead of those of the field, under
+            charge control.
+        inputs: constant values of any other input by its name.
         dashpots: "relaxed": they begin in equilibrium and then flow; "frozen".
         settle, measure: periods of the field at each frequency before the amplitude is taken, and while it is.
         initial_state: where the motion, and frozen dashpots, begin, by name, the rest as in the reference state;
@@ -112,12 +115,31 @@ def stepped_sweep(
     """
     module = load_model(model, formulation, lateral_dashpot)
     frequencies = _frequencies(frequency)
-    given = {"force": force, "field_amplitude": field_amplitude, "field_bias": field_bias}
+    electrical, numbers = electrical_numbers(
+        module,
+        field_amplitude=field_amplitude,
+        field_bias=field_bias,
+        charge_amplitude=charge_amplitude,
+        charge_bias=charge_bias,
+    )
+    given = {"force": force, **numbers}
+    refuse_electrical(module, inputs)
     load = {name: load_number(name, value) for name, value in given.items()}
-    material = single_material(material)
-    field = sine_field({**load, "frequency": frequencies[0]})
-    driven = make_problem(module, parameters, material, held_stretch, load["force"], field)
-    resting = make_problem(module, parameters, material, held_stretch, load["force"], load["field_bias"])
+    constant = constant_inputs(module, inputs, "a stepped sweep")
+    membrane = material_of(module, parameters)
+    material = single_material(material, membrane)
+    driven, resting = (
+        make_problem(
+            module,
+            parameters,
+            material,
+            held_stretch,
+            load["force"],
+            0.0,
+            with_electrical(module, constant, drive),
+        )
+        for drive in (sine_of({**load, "frequency": frequencies[0]}, electrical), load[electrical.bias])
+    )
     statics = make_statics(resting, dashpots, _standing(initial_state, module), limits)
     start = _start(statics, load) if initial_state is None else given_state(resting, initial_state)
     problem = replace(statics.problem, drives=driven.drives)
@@ -130,7 +152,7 @@ def stepped_sweep(
     )  # fmt: skip
     with progress_bar(progress, f"{module.MODEL} stepped sweep", len(frequencies), "frequencies") as bar:
         found = _run(sweep, frequencies, start, bar)
-    about = run_attributes(driven, parameters.replace(**material), limits)
+    about = run_attributes(driven, membrane.replace(**material), limits)
     return _dataset(sweep, problem, frequencies, found, about | _attributes(sweep, dashpots))
 
 
@@ -155,11 +177,14 @@ def _standing(initial_state: Mapping[str, float] | None, module: ModuleType) -> 
 
 def _start(statics: Statics, load: Mapping[str, float]) -> np.ndarray:
     """The stable equilibrium nearest the reference state, (n_state,)."""
-    resting = statics.varying(FIELD, force=load["force"])
-    stable = [x for x in equilibria_at(resting, load["field_bias"]) if growing_directions(resting, x) == 0]
+    electrical = statics.electrical
+    resting = statics.varying(electrical.name, **forces_of(statics.problem, load))
+    bias = load[electrical.bias]
+    stable = [x for x in equilibria_at(resting, bias) if growing_directions(resting, x) == 0]
     if not stable:
         raise ValueError(
-            f"no stable equilibrium under force = {load['force']:g} N and field_bias = {load['field_bias']:g} V/m "
+            f"no stable equilibrium under force = {load['force']:g} N and {electrical.bias} = "
+            f"{bias:g} {electrical.unit} "
             "to begin from; give initial_state"
         )
     return resting.state(min(stable, key=lambda x: float(np.sum(x[:-1] ** 2))))
@@ -226,22 +251,26 @@ def _dataset(
         data[f"final_{entry.name}"] = variable("frequency", numbers, entry.unit, long_name, entry.symbol)
     data["status"] = status_variable("frequency", found.status)
     data["status_time"] = status_time_variable("frequency", found.status_time)
-    coordinate = variable("frequency", frequencies, "Hz", "frequency of the electric field", "f")
+    sine = "electric field" if electrical_input(model) is ELECTRIC_FIELD else "charge"
+    coordinate = variable("frequency", frequencies, "Hz", f"frequency of the {sine}", "f")
     return xr.Dataset(data, coords={"frequency": coordinate}, attrs=attributes)
 
 
 def _definition(sweep: _Sweep) -> str:
-    return _LAST.format(measure=sweep.measure, settle=sweep.settle)
+    stem = electrical_input(sweep.path.problem.model).stem
+    return _LAST.format(measure=sweep.measure, settle=sweep.settle, stem=stem)
 
 
 def _attributes(sweep: _Sweep, dashpots: str) -> dict[str, object]:
+    electrical = electrical_input(sweep.path.problem.model)
     note = (
         "nothing damps: every step adds a free vibration that stays"
-        if dashpots == FROZEN
-        else "dashpots damp"
+        if dashpots == FROZEN and not is_damped(sweep.path.problem)
+        else "dashpots or the medium damp"
     )
     return {
-        "nominal_electric_field_drive": "field_bias + field_amplitude * sin(2 pi frequency t)",
+        f"{electrical.name}_drive": f"{electrical.bias} + {electrical.amplitude} * sin(2 pi frequency t)",
+        "varied_input": electrical.name,
         **{name: value for name, value in sweep.load.items()},
         **{f"{name}_units": LOAD_UNITS[name] for name in sweep.load},
         "dashpots": dashpots,

@@ -1,0 +1,52 @@
+"""How the electrical input of a result is written on axes and in captions: the nominal field, or the nominal charge."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import xarray as xr
+
+from delagrange.inputs import ELECTRIC_FIELD, ELECTRICAL, ElectricalInput
+
+
+@dataclass(frozen=True)
+class ElectricalAxis:
+    """The unit that is shown, and its size in SI units."""
+
+    electrical: ElectricalInput
+    unit: str
+    size: float  # of the unit that is shown [SI]
+
+    @property
+    def name(self) -> str:
+        """In the data."""
+        return self.electrical.argument
+
+    @property
+    def symbol(self) -> str:
+        """In TeX, without dollars."""
+        return self.electrical.symbol
+
+    @property
+    def long_name(self) -> str:
+        """`nominal field`, or `nominal charge density`."""
+        return self.electrical.long_name.replace("electric ", "")
+
+    @property
+    def label(self) -> str:
+        """Of an axis."""
+        return f"{self.long_name} ${self.symbol}$ [{self.unit}]"
+
+
+FIELD_AXIS = ElectricalAxis(ELECTRIC_FIELD, "MV/m", 1e6)
+_OTHERS = {
+    name: ElectricalAxis(each, "mC/m²", 1e-3)
+    for name, each in ELECTRICAL.items()
+    if each is not ELECTRIC_FIELD
+}
+AXES = {ELECTRIC_FIELD.name: FIELD_AXIS, **_OTHERS}
+
+
+def electrical_axis(data: xr.Dataset) -> ElectricalAxis:
+    """The axis of the electrical input that a result says it varies; the field where it says nothing."""
+    return AXES.get(data.attrs.get("varied_input"), FIELD_AXIS)
