@@ -128,6 +128,34 @@ def lyapunov_spectrum(quick: bool) -> dict:
     return {"time": time, "size": duration}
 
 
+def own_membrane(quick: bool) -> dict:
+    """Time [s] from a model file to a swept response, derivation and compilation included, and how many runs it has."""
+    import tempfile
+
+    from benchmarks.timing import one_core, timed
+
+    with one_core(), tempfile.TemporaryDirectory() as folder:
+        time, found = timed(lambda: _derived_and_swept(Path(folder), 3 if quick else 90))
+    return {"time": time, "size": int(found["amplitude"].size)}
+
+
+def _derived_and_swept(folder: Path, runs: int):
+    import numpy as np
+
+    import delagrange
+    from delagrange.derive.model_description import describe
+    from delagrange.derive.model_file import read_model_file
+    from delagrange.derive.user_model import derive_description
+    from delagrange.derive.write_together import write_together
+
+    description = describe(read_model_file(ROOT / "tests" / "models" / "gent_three_branches.toml"))
+    write_together(derive_description(description), folder)
+    return delagrange.frequency_response(
+        delagrange.load(folder / f"{description.name}.py"), force=0.1, field_amplitude=4e6,
+        frequency=np.linspace(50.0, 500.0, runs), duration=0.3, threads=1,
+    )  # fmt: skip
+
+
 def kinds(quick: bool) -> dict:
     """Time [s] of all verdicts on two processes, and how many there are."""
     import tempfile
@@ -188,6 +216,7 @@ TASKS: Mapping[str, Callable[..., dict]] = {
     "assembly": assembly,
     "steady_response": steady_response,
     "lyapunov_spectrum": lyapunov_spectrum,
+    "own_membrane": own_membrane,
     "kinds": kinds,
 }
 

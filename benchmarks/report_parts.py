@@ -161,7 +161,7 @@ def understanding(numbers: dict) -> str:
         for one in numbers.values()
         if isinstance(one, dict)
     ]
-    heads = ("", "first [s]", "again [s]", "points, seconds of motion, or cases")
+    heads = ("", "first [s]", "again [s]", "points, seconds of motion, runs, or cases")
     return (
         f"## Questions to a motion\n\n{table(heads, rows)}\n\nEach in a fresh process, beyond the start of Python; "
         "first: with an empty cache of compiled code; again: the median of later ones."
