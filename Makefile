@@ -5,11 +5,12 @@ OUT ?= out
 BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --constraint constraints.txt
 
-.PHONY: help reproduce test derive check-generated figures bench lint clean
+.PHONY: help reproduce test test-matrix derive check-generated figures bench lint clean
 
 help:
 	@echo "make reproduce        derive, check, emit, integrate, draw; the table of printed and computed numbers"
 	@echo "make test             all fast tests, lint and the check of the generated modules"
+	@echo "make test-matrix      laws of mechanics for each of 1200 described membranes (long)"
 	@echo "make derive           derive the equations, check the printed ones, write generated/"
 	@echo "make check-generated  regenerate aside and compare byte for byte"
 	@echo "make figures          Figs. 4-12 as PNG and PDF with their data, in $(OUT)/figures"
@@ -50,6 +51,9 @@ check-generated: $(VENV)/.installed
 
 test: $(VENV)/.tested lint check-generated
 	$(BIN)/python -m pytest --numprocesses auto
+
+test-matrix: $(VENV)/.tested
+	$(BIN)/python -m pytest --numprocesses auto -m matrix
 
 lint: $(VENV)/.tested
 	$(BIN)/ruff check .
