@@ -11,7 +11,7 @@ from benchmarks.child import in_child
 QUESTIONS = {
     "steady_response": "one response curve of 400 points with stability, one core",
     "lyapunov_spectrum": "Lyapunov spectrum of uniaxial over 20 s of motion, one core",
-    "own_membrane": "uniaxial Gent membrane with three branches: from its file to a swept response of 90 runs, one core",
+    "own_membrane": "uniaxial Gent membrane with three branches: from its file to a sweep of 90 runs, one core",
     "kinds": "kinds of motion of the nine cases of Figs. 6, 9 and 12 (twelve with both formulations), two cores",
 }
 

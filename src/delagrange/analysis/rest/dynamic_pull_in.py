@@ -45,7 +45,8 @@ FOUND, SNAP, NO_BARRIER, NOT_LOST, FORCE_ALONE, NO_START = (
 _STATUS_MEANING = (
     f"{FOUND}: between the fields of the bracket; {SNAP}: the barrier is passed at the field by energy, and the "
     f"solution is not lost; {NO_BARRIER}: there is no unstable equilibrium to climb, and "
-    f"from the field of the bracket on a stretch passes its limit; {NOT_LOST}: within the duration; "
+    "from the field of the bracket on a stretch passes its limit, or a strain energy comes so near its own that "
+    f"no step resolves the motion; {NOT_LOST}: within the duration; "
     f"{FORCE_ALONE}: without any field; {NO_START}: there is nothing to start from"
 )
 _METHOD_MEANING = (
