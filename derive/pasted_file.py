@@ -24,10 +24,9 @@ from pathlib import Path
 
 from delagrange.derive.pasted import PastedEquation
 from delagrange.derive.pasted_symbols import SymbolEntry, entry
-from delagrange.derive.toml_table import Keys, ModelError, Table, read_toml
+from delagrange.derive.toml_table import Keys, ModelError, Table, read_toml, text_of
 
 MOST_EQUATIONS = 200
-_LARGEST = 200_000  # bytes of a file
 _ADDRESS = (
     "citation",
     "source",
@@ -88,7 +87,7 @@ def _equation(table: Table) -> PastedEquation:
 
 
 def _of_text(path: Path) -> tuple[PastedEquation, ...]:
-    lines = enumerate(_text(path).splitlines(), start=1)
+    lines = enumerate(text_of(path, "file of equations").splitlines(), start=1)
     return tuple(
         PastedEquation(line.strip(), place=f"{path}, line {number}: ")
         for number, line in lines
@@ -96,25 +95,9 @@ def _of_text(path: Path) -> tuple[PastedEquation, ...]:
     )
 
 
-def _text(path: Path) -> str:
-    try:
-        with path.open("rb") as file:
-            content = file.read(_LARGEST + 1)
-        if len(content) > _LARGEST:
-            raise ModelError(f"{path}: larger than {_LARGEST} bytes, which no file of equations is")
-        return content.decode("utf-8-sig")
-    except OSError as error:
-        raise ModelError(f"{path}: cannot be read: {error.strerror}") from None
-    except UnicodeDecodeError as error:
-        raise ModelError(f"{path}: cannot be read: byte {error.start} is no UTF-8") from None
-
-
-# --- symbols -----------------------------------------------------------------------------------------
-
-
 def _symbols(path: Path, whole: Table) -> tuple[SymbolEntry, ...]:
     table = whole.table("symbols")
-    placed = replace(table, lines={**table.lines, **_lines_of_symbols(_text(path))})
+    placed = replace(table, lines={**table.lines, **_lines_of_symbols(text_of(path, "file of equations"))})
     return tuple(_symbol(placed, key, meaning) for key, meaning in table.values.items())
 
 

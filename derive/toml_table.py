@@ -152,7 +152,7 @@ def read_toml(path: Path) -> Table:
     Raises:
         ModelError: it cannot be read, is larger than 200 kB, or is no TOML.
     """
-    text = _text(path)
+    text = text_of(path, "model file")
     if text.count(".") > _MOST_DOTS:
         raise ModelError(f"{path}: more than {_MOST_DOTS} dots, which no model file has")
     try:
@@ -164,12 +164,17 @@ def read_toml(path: Path) -> Table:
     return Table(str(path), lines_of(text), (), values)
 
 
-def _text(path: Path) -> str:
+def text_of(path: Path, kind: str) -> str:
+    """The text of a user's file.
+
+    Raises:
+        ModelError: it cannot be read, or is larger than 200 kB, which no `kind` of file is.
+    """
     try:
         with path.open("rb") as file:
             content = file.read(_LARGEST + 1)
         if len(content) > _LARGEST:
-            raise ModelError(f"{path}: larger than {_LARGEST} bytes, which no model file is")
+            raise ModelError(f"{path}: larger than {_LARGEST} bytes, which no {kind} is")
         return content.decode("utf-8-sig")
     except OSError as error:
         raise ModelError(f"{path}: cannot be read: {error.strerror}") from None

@@ -13,7 +13,6 @@ from delagrange.drive import Constant, Drive, Sine, Values, as_drive
 from delagrange.units import shown
 
 FORCE, FIELD, CHARGE = "force", "nominal_electric_field", "nominal_charge_density"
-_CURRENT = "nominal_current_density"
 _ARGUMENTS = {FORCE: "force", FIELD: "field"}  # input of a model -> what a user calls it
 
 Inputs = Mapping[str, Drive | Values]
@@ -48,6 +47,9 @@ class ElectricalInput:
 
 ELECTRIC_FIELD = ElectricalInput(FIELD, "field", "field", "V/m", "nominal electric field", "E")
 CHARGE_DENSITY = ElectricalInput(CHARGE, CHARGE, "charge", "C/m^2", "nominal charge density", "D")
+CURRENT_DENSITY = ElectricalInput(
+    "nominal_current_density", "nominal_current_density", "current", "A/m^2", "nominal current density", "i"
+)  # of a membrane whose charge is part of its state
 ELECTRICAL = {each.name: each for each in (ELECTRIC_FIELD, CHARGE_DENSITY)}
 
 
@@ -62,9 +64,8 @@ def electrical_input(model: ModuleType) -> ElectricalInput:
         if name in names:
             return electrical
     wanted = " or ".join(f"{each.name} [{each.unit}]" for each in ELECTRICAL.values())
-    why = (
-        "; under a current its charge is part of the state, and cannot be given" if _CURRENT in names else ""
-    )
+    fed = CURRENT_DENSITY.name in names
+    why = "; under a current its charge is part of the state, and cannot be given" if fed else ""
     raise ValueError(
         f"the model {model.MODEL} has no input {wanted}; it has {', '.join(names) or 'none'}{why}"
     )
@@ -151,6 +152,11 @@ def _refuse_unused(model: ModuleType, drives: Mapping[str, Drive]) -> None:
                 f"{input_name(name)} given as {drive}, but {model.MODEL} has no such input; "
                 f"it has {', '.join(map(input_name, known))}{hint}"
             )
+
+
+def is_zero_number(value: object) -> bool:
+    """Whether a value is the single number zero."""
+    return np.ndim(value) == 0 and value == 0
 
 
 def _is_zero(drive: Drive) -> bool:

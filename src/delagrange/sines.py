@@ -5,14 +5,18 @@ from __future__ import annotations
 from collections.abc import Mapping
 from types import ModuleType
 
-import numpy as np
-
-from delagrange.inputs import CHARGE_DENSITY, ELECTRIC_FIELD, ElectricalInput, Inputs, has_input, named_inputs
+from delagrange.inputs import (
+    CHARGE_DENSITY,
+    CURRENT_DENSITY,
+    ELECTRIC_FIELD,
+    ElectricalInput,
+    Inputs,
+    has_input,
+    is_zero_number,
+    named_inputs,
+)
 from delagrange.units import shown
 
-CURRENT_DENSITY = ElectricalInput(
-    "nominal_current_density", "nominal_current_density", "current", "A/m^2", "nominal current density", "i"
-)  # of a membrane whose charge is part of its state
 ELECTRODES = (ELECTRIC_FIELD, CHARGE_DENSITY, CURRENT_DENSITY)
 
 
@@ -82,4 +86,4 @@ def _refuse_foreign(
 
 def _acts(value: object) -> bool:
     """Whether a number is given that is not zero, or an array."""
-    return value is not None and not (np.ndim(value) == 0 and value == 0)
+    return value is not None and not is_zero_number(value)

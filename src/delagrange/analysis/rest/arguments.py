@@ -22,6 +22,7 @@ from delagrange.inputs import (
     Inputs,
     electrical_input,
     has_input,
+    is_zero_number,
     named_inputs,
 )
 from delagrange.loss import Limits
@@ -120,7 +121,7 @@ def make_cases(
     material.check_names({name: value for name, value in given.items() if name not in _UNITS})
     checked = {name: _checked(name, value, material) for name, value in given.items()}
     checked_initial(module, initial_state)
-    if FORCE in others or (_is_zero(checked[FORCE]) and not has_input(module, FORCE)):
+    if FORCE in others or (is_zero_number(checked[FORCE]) and not has_input(module, FORCE)):
         del checked[FORCE]
     units = {entry.name: entry.unit for entry in module.INPUTS} | _UNITS | dict(material.units)
     checked = {name: checks.finite(name, value, units[name]) for name, value in others.items()} | checked
@@ -177,7 +178,7 @@ def electrical_name(model: ModuleType, field: object) -> ElectricalInput:
         ValueError: a field that is given to a model under charge control; or it has no electrical input.
     """
     electrical = electrical_input(model)
-    if electrical is CHARGE_DENSITY and field is not None and not _is_zero(field):
+    if electrical is CHARGE_DENSITY and field is not None and not is_zero_number(field):
         raise ValueError(
             f"the model {model.MODEL} is under charge control and has no field; "
             f'give inputs={{"{electrical.name}": values in {electrical.unit}}} (--input on the command line)'
@@ -213,13 +214,9 @@ def _other_inputs(model: ModuleType, inputs: Inputs | None, force: object) -> di
     for name, value in given.items():
         if isinstance(value, Drive):
             raise ValueError(f"inputs {name} must be a number or an array of them here, got {value}")
-    if FORCE in given and not _is_zero(force):
+    if FORCE in given and not is_zero_number(force):
         raise ValueError("force is given by itself and in inputs as well; give one")
     return given
-
-
-def _is_zero(value: object) -> bool:
-    return np.ndim(value) == 0 and value == 0
 
 
 def _checked(name: str, value: object, material: Material) -> float | np.ndarray:

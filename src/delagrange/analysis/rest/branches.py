@@ -38,21 +38,26 @@ def range_of_input(statics: Statics, largest: float) -> float:
     return max(largest, _FARTHEST * typical_electrical(statics))
 
 
+def acting_forces(statics: Statics) -> dict[str, float]:
+    """Every input but the electrical one that is not zero, by name, in the model's order."""
+    entries = zip(statics.problem.model.INPUTS, statics.inputs)
+    return {
+        entry.name: float(value)
+        for entry, value in entries
+        if entry.name != statics.electrical.name and value != 0
+    }
+
+
 def at_zero_field(statics: Statics) -> np.ndarray:
     """x under the forces alone, reached from the unloaded membrane as each grows from zero, in the model's order.
 
     Raises:
         Lost: the membrane does not stand them.
     """
-    x, electrical = unloaded(statics), statics.electrical.name
-    growing = {
-        entry.name: value
-        for entry, value in zip(statics.problem.model.INPUTS, statics.inputs)
-        if entry.name != electrical and value != 0
-    }
-    grown = {electrical: 0.0} | dict.fromkeys(growing, 0.0)
+    x, growing = unloaded(statics), acting_forces(statics)
+    grown = {statics.electrical.name: 0.0} | dict.fromkeys(growing, 0.0)
     for name, value in growing.items():
-        x = _grown(statics.varying(name, **grown), x, float(value))
+        x = _grown(statics.varying(name, **grown), x, value)
         grown[name] = value
     return np.append(x[:-1], 0.0)
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from delagrange import checks
 from delagrange.analysis.continuation import Lost, parameter_of
-from delagrange.analysis.rest.branches import at_zero_field, connected_pieces, stable_until
+from delagrange.analysis.rest.branches import acting_forces, at_zero_field, connected_pieces, stable_until
 from delagrange.analysis.rest.chart import make_chart
 from delagrange.analysis.rest.pieces import FOLD, Piece, point_at, trace
 from delagrange.analysis.rest.seeds import same
@@ -34,12 +34,11 @@ from delagrange.dashpots import (
     frozen,
     rate_places,
 )
-from delagrange.inputs import ElectricalInput, Inputs, constant_inputs, has_input, input_name
+from delagrange.inputs import CURRENT_DENSITY, ElectricalInput, Inputs, constant_inputs, has_input, input_name
 from delagrange.loss import Limits
 from delagrange.models import check_offers, load_model
 from delagrange.parameters import SHENG_2015, Parameters
 from delagrange.problem import Problem, make_problem
-from delagrange.sines import CURRENT_DENSITY
 from delagrange.units import with_unit
 
 
@@ -200,12 +199,8 @@ def _grown_forces(statics: Statics) -> Iterator[tuple[str, float, Piece]]:
     Raises:
         Lost: it does not grow from zero.
     """
-    x, electrical = unloaded(statics), statics.electrical.name
-    entries = zip(statics.problem.model.INPUTS, statics.inputs)
-    growing = {
-        entry.name: float(value) for entry, value in entries if entry.name != electrical and value != 0
-    }
-    grown = {electrical: 0.0} | dict.fromkeys(growing, 0.0)
+    x, growing = unloaded(statics), acting_forces(statics)
+    grown = {statics.electrical.name: 0.0} | dict.fromkeys(growing, 0.0)
     for name, value in growing.items():
         along, x = statics.varying(name, **grown), np.append(x[:-1], 0.0)
         piece = _through(along, x, trace(along, x, min(value, 0.0), max(value, 0.0)))
