@@ -1,6 +1,6 @@
 """What is computed: the amplitude-frequency curves of Figs. 4 and 7 of Sheng et al. (2015), as runs.
 
-The loads, frequencies and the window are those of `delagrange.reproduction.cases`: two panels of three curves,
+The loads, frequencies and the window are those of `delagrange.reproduction.runs.cases`: two panels of three curves,
 the curve that stands in both panels computed twice, since six curves are drawn.
 """
 
@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from delagrange.reproduction.cases import RESPONSES, Panel, ResponseFigure
+from delagrange.reproduction.runs.cases import RESPONSES, Panel, ResponseFigure
 
 
 @dataclass(frozen=True)

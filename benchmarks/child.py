@@ -143,10 +143,10 @@ def _derived_and_swept(folder: Path, runs: int):
     import numpy as np
 
     import delagrange
-    from delagrange.derive.model_description import describe
-    from delagrange.derive.model_file import read_model_file
+    from delagrange.derive.emit.write_together import write_together
+    from delagrange.derive.model_file.describe import describe
+    from delagrange.derive.model_file.file import read_model_file
     from delagrange.derive.user_model import derive_description
-    from delagrange.derive.write_together import write_together
 
     description = describe(read_model_file(ROOT / "tests" / "models" / "gent_three_branches.toml"))
     write_together(derive_description(description), folder)
@@ -162,8 +162,8 @@ def kinds(quick: bool) -> dict:
     from pathlib import Path
 
     from benchmarks.timing import timed
-    from delagrange.reproduction.all_runs import run_all
-    from delagrange.reproduction.runs import kind_jobs
+    from delagrange.reproduction.runs.all_runs import run_all
+    from delagrange.reproduction.runs.runs import kind_jobs
 
     wanted = kind_jobs()[:1] if quick else kind_jobs()
     with tempfile.TemporaryDirectory() as folder:

@@ -9,7 +9,7 @@ from importlib.util import find_spec
 import numpy as np
 
 from benchmarks.cases import Case
-from delagrange.engines import ENGINES
+from delagrange.engines.engines import ENGINES
 
 Run = Callable[[], np.ndarray]  # the timed part; amplitudes [1], (n_places,)
 Prepare = Callable[[Case, np.ndarray, float], Run]  # (case, places of the runs, tolerance), not timed

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from delagrange import checks
-from delagrange.engines import ENGINES
-from delagrange.kernels import why_not_compiled
+from delagrange.common import checks
+from delagrange.engines.engines import ENGINES
+from delagrange.model.kernels import why_not_compiled
 
 
 def has_compiled_engine() -> bool:

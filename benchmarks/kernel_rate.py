@@ -13,11 +13,11 @@ from benchmarks.multiply_add_peak import REGISTERS, peak
 from benchmarks.operation_count import EVALUATIONS_PER_STEP, operations_per_evaluation
 from benchmarks.peer_delagrange import ABSOLUTE_SHARE
 from benchmarks.timing import timed
-from delagrange.engines import resolve_numerics
-from delagrange.kernels import kernel_name, load_kernel
-from delagrange.measures import Measures
-from delagrange.reproduction.cases import Panel
-from delagrange.sweep import Sweep, make_settings, make_sweep, run_sweep
+from delagrange.engines.engines import resolve_numerics
+from delagrange.model.kernels import kernel_name, load_kernel
+from delagrange.reproduction.runs.cases import Panel
+from delagrange.run.measures import Measures
+from delagrange.run.sweep import Sweep, make_settings, make_sweep, run_sweep
 
 RTOL = 1e-6
 

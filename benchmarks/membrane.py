@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 import delagrange
-from delagrange.problem import make_problem
+from delagrange.problem.problem import make_problem
 
 
 def parameter_values(model: str) -> list[float]:

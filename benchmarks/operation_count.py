@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from types import ModuleType
 
-from delagrange.tableau import Tableau, tableau
+from delagrange.engines.tableau import Tableau, tableau
 
 EVALUATIONS_PER_STEP = 12  # DOP853: the last rate of a step is the first of the next
 _SCALE_OPERATIONS = 3  # 1 / (atol + rtol * size), for each state variable

@@ -17,7 +17,7 @@ from benchmarks.engines import has_compiled_engine
 from benchmarks.series import equal_error_ratios
 from benchmarks.timing import one_core
 from benchmarks.work_precision import measure, prepared
-from delagrange import checks
+from delagrange.common import checks
 
 REPEATS = 5
 QUICK_REPEATS = 2

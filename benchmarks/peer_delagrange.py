@@ -7,7 +7,7 @@ import numpy as np
 import delagrange
 from benchmarks.cases import Case
 from benchmarks.contestant import Contestant, Run
-from delagrange.reproduction.cases import Panel
+from delagrange.reproduction.runs.cases import Panel
 
 ABSOLUTE_SHARE = 1e-3  # atol over rtol, as in the defaults of `frequency_response`
 _TOLERANCES = (1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10)

@@ -19,7 +19,7 @@ from benchmarks.cases import Case, Runs
 from benchmarks.contestant import Contestant, Run
 from benchmarks.membrane import parameter_values
 from benchmarks.peer_delagrange import ABSOLUTE_SHARE
-from delagrange.derive.load_cases import EMITTED
+from delagrange.derive.membrane.load_cases import EMITTED
 from delagrange.derive.pipeline import derive, paper_membrane
 
 RightHandSide = Callable[..., list[float]]

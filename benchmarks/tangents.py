@@ -79,9 +79,9 @@ def _points(contestants: dict[str, Contestant], reference: np.ndarray) -> dict[s
 
 
 def _ours(model: str, engine: str) -> Tangent:
-    from delagrange.dashpots import given_state
-    from delagrange.flow import Path, typical_sizes
-    from delagrange.flows import resolve_flow
+    from delagrange.engines.flow import Path, typical_sizes
+    from delagrange.engines.flows import resolve_flow
+    from delagrange.problem.dashpots import given_state
 
     problem = _problem(model)
     flow, state, weights = resolve_flow(problem, engine), given_state(problem, None), typical_sizes(problem)
@@ -97,8 +97,8 @@ def _ours(model: str, engine: str) -> Tangent:
 
 def _problem(model: str) -> object:
     import delagrange
-    from delagrange.dashpots import frozen
-    from delagrange.problem import make_problem
+    from delagrange.problem.dashpots import frozen
+    from delagrange.problem.problem import make_problem
 
     field = delagrange.Sine(_AMPLITUDE, _FREQUENCY)
     module = delagrange.load_model(model)
@@ -113,8 +113,8 @@ def _heyoka(model: str) -> Tangent:
     """By its own derivatives of the same rates, the inelastic stretches put in as numbers. Time in 0.1 ms."""
     import heyoka
 
-    from delagrange.dashpots import given_state
-    from delagrange.flow import typical_sizes
+    from delagrange.engines.flow import typical_sizes
+    from delagrange.problem.dashpots import given_state
 
     problem = _problem(model)
     state, weights = given_state(problem, None), typical_sizes(problem)

@@ -41,8 +41,8 @@ def summary(counts: dict[str, int], full: str) -> dict[str, object]:
 def of_kernels(models: list[str]) -> dict[str, dict[str, int]]:
     """Arithmetic of freshly compiled kernels, by model; in a process with an empty cache of compiled code,
     since what comes from the cache has no assembly."""
-    from delagrange.kernels import kernel_name, load_kernel
-    from delagrange.models import load_model
+    from delagrange.model.kernels import kernel_name, load_kernel
+    from delagrange.model.load import load_model
 
     kernels = {model: load_kernel(kernel_name(load_model(model))) for model in models}
     return {

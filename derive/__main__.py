@@ -12,9 +12,10 @@ import sys
 from importlib import resources
 from pathlib import Path
 
-from delagrange.derive import pipeline, record
+from delagrange.derive import pipeline
+from delagrange.derive.check import record
+from delagrange.derive.check.report import as_text, summary
 from delagrange.derive.pipeline import Walked
-from delagrange.derive.report import as_text, summary
 
 
 def _options(arguments: list[str] | None) -> argparse.Namespace:

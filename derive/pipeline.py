@@ -6,21 +6,21 @@ from dataclasses import dataclass
 from itertools import chain
 from pathlib import Path
 
-from delagrange.derive import symbols as s
-from delagrange.derive.derived_equations import (
+from delagrange.derive.check.verdict import Verdict
+from delagrange.derive.check.verify import verify
+from delagrange.derive.equations.derived_equations import (
     check_dimensions,
     check_model_dimensions,
     derived_equations,
 )
-from delagrange.derive.euler_lagrange import EquationsOfMotion, equations_of_motion
-from delagrange.derive.kernel import kernel
-from delagrange.derive.load_cases import BIAXIAL, EMITTED, LoadCase
-from delagrange.derive.membrane import Membrane, membrane
-from delagrange.derive.published.sheng_2015 import SHENG_2015
-from delagrange.derive.strain_energy import neo_hookean
+from delagrange.derive.equations.euler_lagrange import EquationsOfMotion, equations_of_motion
+from delagrange.derive.kernel.kernel import kernel
+from delagrange.derive.membrane.load_cases import BIAXIAL, EMITTED, LoadCase
+from delagrange.derive.membrane.membrane import Membrane, membrane
+from delagrange.derive.membrane.strain_energy import neo_hookean
+from delagrange.derive.notation import symbols as s
+from delagrange.derive.papers.sheng_2015.equations import SHENG_2015
 from delagrange.derive.user_model import emitted
-from delagrange.derive.verdict import Verdict
-from delagrange.derive.verify import verify
 
 _PACKAGE_MARKER = "__init__.py"  # makes the folder a package; it is empty
 

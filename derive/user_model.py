@@ -7,24 +7,24 @@ from difflib import get_close_matches
 from itertools import combinations
 from keyword import iskeyword
 
-from delagrange.derive import symbols as s
-from delagrange.derive.derived_equations import check_model_dimensions
-from delagrange.derive.described_load import load_case_of
-from delagrange.derive.description import CHARGE, VOLTAGE, Description
-from delagrange.derive.electrical_dimensions import check_electrical_dimensions
-from delagrange.derive.emit import emit
-from delagrange.derive.emit_lanes import emit_lanes
-from delagrange.derive.emit_variational import emit_variational
-from delagrange.derive.euler_lagrange import EquationsOfMotion, equations_of_motion
-from delagrange.derive.kernel import kernel
-from delagrange.derive.kernel_spec import KernelSpec, Origin
-from delagrange.derive.lane_spec import lane_spec
-from delagrange.derive.load_cases import LoadCase
-from delagrange.derive.membrane import Membrane, described_membrane
-from delagrange.derive.own_energy import check_functions
-from delagrange.derive.strain_energy import StrainEnergy
-from delagrange.derive.symbols import Quantity
-from delagrange.derive.variational_spec import variational_spec
+from delagrange.derive.emit.lanes_module import emit_lanes
+from delagrange.derive.emit.numpy_module import emit
+from delagrange.derive.emit.variational_module import emit_variational
+from delagrange.derive.equations.derived_equations import check_model_dimensions
+from delagrange.derive.equations.electrical_dimensions import check_electrical_dimensions
+from delagrange.derive.equations.euler_lagrange import EquationsOfMotion, equations_of_motion
+from delagrange.derive.kernel.kernel import kernel
+from delagrange.derive.kernel.lane_spec import lane_spec
+from delagrange.derive.kernel.spec import KernelSpec, Origin
+from delagrange.derive.kernel.variational_spec import variational_spec
+from delagrange.derive.membrane.described_load import load_case_of
+from delagrange.derive.membrane.description import CHARGE, VOLTAGE, Description
+from delagrange.derive.membrane.load_cases import LoadCase
+from delagrange.derive.membrane.membrane import Membrane, described_membrane
+from delagrange.derive.membrane.own_energy import check_functions
+from delagrange.derive.membrane.strain_energy import StrainEnergy
+from delagrange.derive.notation import symbols as s
+from delagrange.derive.notation.symbols import Quantity
 
 _COMMAND = "delagrange derive"
 _LEAKAGE = "Foo et al. (2012), J. Appl. Phys. 111, 034102"

@@ -25,8 +25,8 @@ from matplotlib.figure import Figure
 from shared import MEGA, draw_into, model_of, out_folder
 
 import delagrange as dl
-from delagrange.derive.description import CHARGE, EQUAL_BIAXIAL, Description, Dielectric, Load
-from delagrange.derive.materials import ALPHA, MATERIALS
+from delagrange.derive.membrane.description import CHARGE, EQUAL_BIAXIAL, Description, Dielectric, Load
+from delagrange.derive.membrane.materials import ALPHA, MATERIALS
 from delagrange.figures.style import BLACK, BLUE, VERMILION, caption, new_figure
 
 LARGEST_CHARGE = 0.012  # nominal charge density [C/m^2]

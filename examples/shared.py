@@ -11,13 +11,13 @@ import xarray as xr
 from matplotlib.figure import Figure
 
 import delagrange as dl
-from delagrange.derive.description import Description
-from delagrange.derive.model_description import describe
-from delagrange.derive.model_file import read_model_file
+from delagrange.common.files import prepare_folder
+from delagrange.derive.emit.write_together import write_together
+from delagrange.derive.membrane.description import Description
+from delagrange.derive.model_file.describe import describe
+from delagrange.derive.model_file.file import read_model_file
 from delagrange.derive.user_model import derive_description
-from delagrange.derive.write_together import write_together
 from delagrange.figures.style import journal_style, save
-from delagrange.files import prepare_folder
 
 HERE = Path(__file__).parent
 MEGA = 1e6

@@ -5,7 +5,7 @@ equilibrium spring alone resists: pull-in at the limit point with relaxed dashpo
 relaxation, all springs resist: the limit point with frozen dashpots, about twice the field. Between the two
 limits the field at pull-in grows with the rate; that of ramps that are not even slow against the vibration of
 the membrane goes beyond the upper one, since its inertia delays it. Stewart & Anand (2023, see
-`delagrange.derive.material_data`) sweep the rate in the same way, with finite elements.
+`delagrange.derive.membrane.material_data`) sweep the rate in the same way, with finite elements.
 
 The description is made in Python: the published springs and the two branches of VHB 4910 that relax in 0.6 s and
 6.6 s; the third, 61 s, is left out. The size of the membrane and a small dashpot beside all springs (10 Pa s, it
@@ -27,9 +27,9 @@ from matplotlib.figure import Figure
 from shared import MEGA, draw_into, model_of, out_folder
 
 import delagrange as dl
-from delagrange.derive.description import EQUAL_BIAXIAL, Description, Load
-from delagrange.derive.material_data import VHB_4910
-from delagrange.derive.model_symbols import PARALLEL_VISCOSITY
+from delagrange.derive.membrane.description import EQUAL_BIAXIAL, Description, Load
+from delagrange.derive.membrane.material_data import VHB_4910
+from delagrange.derive.notation.more_symbols import PARALLEL_VISCOSITY
 from delagrange.figures.style import BLACK, BLUE, VERMILION, caption, new_figure
 
 TWO_BRANCHES = replace(VHB_4910, branches=VHB_4910.branches[:2])

@@ -7,11 +7,11 @@ from pathlib import Path
 from types import ModuleType
 
 import delagrange as dl
-from delagrange.derive.description import RELATION, Load, Relation
-from delagrange.derive.emit import emit
-from delagrange.derive.model_description import describe
-from delagrange.derive.model_file import read_model_file
-from delagrange.derive.symbols import TimeDependent, moving, quantity
+from delagrange.derive.emit.numpy_module import emit
+from delagrange.derive.membrane.description import RELATION, Load, Relation
+from delagrange.derive.model_file.describe import describe
+from delagrange.derive.model_file.file import read_model_file
+from delagrange.derive.notation.symbols import TimeDependent, moving, quantity
 from delagrange.derive.user_model import derive_description, description_spec
 
 MU, EPSILON, DENSITY = 6.0e4, 6.198e-11, 1.2e3  # [Pa], [F/m], [kg/m^3]

@@ -9,9 +9,9 @@ import pytest
 from hypothesis import HealthCheck, settings
 
 from delagrange.derive import pipeline
-from delagrange.derive.euler_lagrange import EquationsOfMotion
-from delagrange.derive.load_cases import BIAXIAL, EMITTED, LoadCase
-from delagrange.derive.membrane import Membrane
+from delagrange.derive.equations.euler_lagrange import EquationsOfMotion
+from delagrange.derive.membrane.load_cases import BIAXIAL, EMITTED, LoadCase
+from delagrange.derive.membrane.membrane import Membrane
 
 settings.register_profile(
     "delagrange", deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow]

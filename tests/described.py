@@ -7,13 +7,21 @@ from types import ModuleType
 import numpy as np
 import sympy as sp
 
-from delagrange.derive import model_symbols as m
-from delagrange.derive import symbols as s
-from delagrange.derive.description import Body, Branch, Description, Load, Permittivity, Relation, numbered
-from delagrange.derive.emit import emit
-from delagrange.derive.kernel_spec import KernelSpec
-from delagrange.derive.materials import ALPHA, MATERIALS, branch
-from delagrange.derive.symbols import Quantity, quantity
+from delagrange.derive.emit.numpy_module import emit
+from delagrange.derive.kernel.spec import KernelSpec
+from delagrange.derive.membrane.description import (
+    Body,
+    Branch,
+    Description,
+    Load,
+    Permittivity,
+    Relation,
+    numbered,
+)
+from delagrange.derive.membrane.materials import ALPHA, MATERIALS, branch
+from delagrange.derive.notation import more_symbols as m
+from delagrange.derive.notation import symbols as s
+from delagrange.derive.notation.symbols import Quantity, quantity
 from delagrange.derive.user_model import description_spec
 
 VALUES = {

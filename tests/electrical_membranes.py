@@ -8,9 +8,8 @@ from types import ModuleType
 import numpy as np
 import sympy as sp
 
-from delagrange.derive import model_symbols as m
-from delagrange.derive import symbols as s
-from delagrange.derive.description import (
+from delagrange.derive.emit.numpy_module import emit
+from delagrange.derive.membrane.description import (
     CHARGE,
     EQUAL_BIAXIAL,
     PURE_SHEAR,
@@ -25,9 +24,10 @@ from delagrange.derive.description import (
     Relation,
     constant_permittivity,
 )
-from delagrange.derive.emit import emit
-from delagrange.derive.materials import ALPHA, MATERIALS, branch
-from delagrange.derive.symbols import Quantity, quantity
+from delagrange.derive.membrane.materials import ALPHA, MATERIALS, branch
+from delagrange.derive.notation import more_symbols as m
+from delagrange.derive.notation import symbols as s
+from delagrange.derive.notation.symbols import Quantity, quantity
 from delagrange.derive.user_model import description_spec
 
 ELECTROSTRICTION = quantity("b", "electrostriction", "b", "b", "1", "of the permittivity", positive=False)

@@ -8,11 +8,11 @@ from types import ModuleType
 
 import sympy as sp
 
-from delagrange.derive.emit import emit
-from delagrange.derive.emit_variational import emit_variational
-from delagrange.derive.kernel_spec import KernelFunction, KernelSpec
-from delagrange.derive.symbols import Quantity
-from delagrange.derive.variational_spec import variational_spec
+from delagrange.derive.emit.numpy_module import emit
+from delagrange.derive.emit.variational_module import emit_variational
+from delagrange.derive.kernel.spec import KernelFunction, KernelSpec
+from delagrange.derive.kernel.variational_spec import variational_spec
+from delagrange.derive.notation.symbols import Quantity
 
 
 def first_order(

@@ -38,8 +38,8 @@ from benchmarks.targets import NOT_MEASURED, TARGETS, Target, targets_section
 from benchmarks.timing import Timed, interleaved
 from benchmarks.vector_width import NOT_FULL, arithmetic, failures, summary
 from benchmarks.work_precision import measure, prepared
-from delagrange.reproduction.cases import Load, Panel
-from delagrange.tableau import tableau
+from delagrange.engines.tableau import tableau
+from delagrange.reproduction.runs.cases import Load, Panel
 
 THREE_RUNS = Case(
     "three", "equal_biaxial", (Panel("a", "force", (Load(0.5, 5e6),)),), np.array([185.0, 371.0, 742.0]), 0.02

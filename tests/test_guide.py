@@ -103,8 +103,9 @@ def test_the_guide_shows_every_command_that_takes_a_model():
 
 
 def test_the_guide_names_every_material_and_every_key():
-    from delagrange.derive import model_file, model_loads
-    from delagrange.derive.materials import MATERIALS
+    from delagrange.derive.membrane.materials import MATERIALS
+    from delagrange.derive.model_file import file as model_file
+    from delagrange.derive.model_file import loads as model_loads
 
     text = GUIDE.read_text(encoding="utf-8")
     for name, material in MATERIALS.items():

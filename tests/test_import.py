@@ -48,8 +48,8 @@ def test_every_name_is_there():
 
 
 def test_simulate_stays_a_function_after_its_module_is_imported():
-    import delagrange.analysis.sections
-    import delagrange.simulation
+    import delagrange.analysis.motion.sections
+    import delagrange.run.simulation
 
     assert callable(delagrange.simulate)
 

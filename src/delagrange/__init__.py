@@ -11,49 +11,49 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from delagrange.analysis.motion.classify import classify
     from delagrange.analysis.motion.lyapunov import lyapunov_spectrum
-    from delagrange.analysis.portrait import phase_portrait
+    from delagrange.analysis.motion.portrait import phase_portrait
+    from delagrange.analysis.motion.sections import stroboscopic_section
     from delagrange.analysis.rest.dynamic_pull_in import dynamic_pull_in
     from delagrange.analysis.rest.equilibria import equilibria
     from delagrange.analysis.rest.modes import modes
     from delagrange.analysis.rest.pull_in import pull_in
-    from delagrange.analysis.rest.rest_state import rest_state
-    from delagrange.analysis.sections import stroboscopic_section
-    from delagrange.analysis.steady.response import steady_response
+    from delagrange.analysis.steady.steady_response import steady_response
     from delagrange.analysis.steady.stepped_sweep import stepped_sweep
-    from delagrange.drive import Constant, Drive, Ramp, Sine, Step, Tabulated
-    from delagrange.loss import Limits
-    from delagrange.models import load, load_model, model_names
-    from delagrange.parameters import SHENG_2015, Parameters
-    from delagrange.response import frequency_response, peaks
-    from delagrange.simulation import simulate
+    from delagrange.drives.drive import Constant, Drive, Ramp, Sine, Step, Tabulated
+    from delagrange.equilibrium.rest_state import rest_state
+    from delagrange.model.load import load, load_model, model_names
+    from delagrange.model.parameters import SHENG_2015, Parameters
+    from delagrange.problem.status import Limits
+    from delagrange.run.frequency_response import frequency_response, peaks
+    from delagrange.run.simulation import simulate
 
 _HOME = {
-    "SHENG_2015": "parameters",
-    "Constant": "drive",
-    "Drive": "drive",
-    "Limits": "loss",
-    "Parameters": "parameters",
-    "Ramp": "drive",
-    "Sine": "drive",
-    "Step": "drive",
-    "Tabulated": "drive",
+    "SHENG_2015": "model.parameters",
+    "Constant": "drives.drive",
+    "Drive": "drives.drive",
+    "Limits": "problem.status",
+    "Parameters": "model.parameters",
+    "Ramp": "drives.drive",
+    "Sine": "drives.drive",
+    "Step": "drives.drive",
+    "Tabulated": "drives.drive",
     "classify": "analysis.motion.classify",
     "dynamic_pull_in": "analysis.rest.dynamic_pull_in",
     "equilibria": "analysis.rest.equilibria",
-    "frequency_response": "response",
-    "load": "models",
-    "load_model": "models",
+    "frequency_response": "run.frequency_response",
+    "load": "model.load",
+    "load_model": "model.load",
     "lyapunov_spectrum": "analysis.motion.lyapunov",
-    "model_names": "models",
+    "model_names": "model.load",
     "modes": "analysis.rest.modes",
-    "peaks": "response",
-    "phase_portrait": "analysis.portrait",
+    "peaks": "run.frequency_response",
+    "phase_portrait": "analysis.motion.portrait",
     "pull_in": "analysis.rest.pull_in",
-    "rest_state": "analysis.rest.rest_state",
-    "simulate": "simulation",
-    "steady_response": "analysis.steady.response",
+    "rest_state": "equilibrium.rest_state",
+    "simulate": "run.simulation",
+    "steady_response": "analysis.steady.steady_response",
     "stepped_sweep": "analysis.steady.stepped_sweep",
-    "stroboscopic_section": "analysis.sections",
+    "stroboscopic_section": "analysis.motion.sections",
 }
 
 __all__ = [

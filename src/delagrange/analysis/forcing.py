@@ -8,8 +8,8 @@ from math import gcd, lcm
 
 import numpy as np
 
-from delagrange.flow import AMPLITUDE, BIAS, FREQUENCY, drive_numbers, typical_sizes
-from delagrange.problem import Problem
+from delagrange.engines.flow import AMPLITUDE, BIAS, FREQUENCY, drive_numbers, typical_sizes
+from delagrange.problem.problem import Problem
 
 _SAMPLES = 8  # in a forcing period, and in a period of the fastest small vibration
 _FREE_SAMPLES = 16  # in that period where nothing is forced: no folded line then counts as one of its own

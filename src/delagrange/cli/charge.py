@@ -9,8 +9,8 @@ import typer
 
 from delagrange.cli.drives import DriveOptions
 from delagrange.cli.quantities import reader
-from delagrange.drive import Drive
-from delagrange.inputs import CHARGE_DENSITY
+from delagrange.drives.drive import Drive
+from delagrange.drives.inputs import CHARGE_DENSITY
 
 _PANEL = "Charge, under charge control"
 _SPAN = "START:STOP or START:STOP:STEP if it is what varies"

@@ -16,8 +16,8 @@ from delagrange.cli.initial import single_start
 from delagrange.cli.interruption import interruptible
 from delagrange.cli.named import inputs_given, material_given
 from delagrange.cli.plots import check_plot, write_plot
-from delagrange.drive import Drive
-from delagrange.files import check_writable, write_dataset
+from delagrange.common.files import check_writable, write_dataset
+from delagrange.drives.drive import Drive
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -81,7 +81,7 @@ def classify(
     if out is not None:
         _check_netcdf(out)
     check_plot(plot)
-    from delagrange.models import load_model
+    from delagrange.model.load import load_model
 
     module = load_model(model, formulation, lateral_dashpot)
     start = single_start(initial, {entry.name: entry.unit for entry in module.STATE})

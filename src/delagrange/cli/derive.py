@@ -14,7 +14,7 @@ from delagrange.cli.derive_file import derive_file
 from delagrange.cli.interruption import interruptible
 from delagrange.cli.verdicts import show
 from delagrange.cli.verify import Details, as_recorded
-from delagrange.files import check_folder, prepare_folder
+from delagrange.common.files import check_folder, prepare_folder
 
 if TYPE_CHECKING:
     from delagrange.derive.pipeline import Walked

@@ -8,7 +8,7 @@ import typer
 
 from delagrange.cli import console
 from delagrange.cli.interruption import interruptible
-from delagrange.files import check_folder
+from delagrange.common.files import check_folder
 
 
 def derive_file(model: Path, out: Path | None, check: bool, quiet: bool) -> None:
@@ -27,7 +27,7 @@ def derive_file(model: Path, out: Path | None, check: bool, quiet: bool) -> None
     if check:
         _compare(modules, out, model)
         return
-    from delagrange.derive.write_together import write_together
+    from delagrange.derive.emit.write_together import write_together
 
     with interruptible("nothing was written"):
         write_together(modules, out)
@@ -36,8 +36,8 @@ def derive_file(model: Path, out: Path | None, check: bool, quiet: bool) -> None
 
 def _derived(path: Path) -> tuple[tuple[str, str], ...]:
     """File name and text of each module of the membrane."""
-    from delagrange.derive.model_description import describe
-    from delagrange.derive.model_file import read_model_file
+    from delagrange.derive.model_file.describe import describe
+    from delagrange.derive.model_file.file import read_model_file
     from delagrange.derive.user_model import derive_description
 
     description = describe(read_model_file(path))

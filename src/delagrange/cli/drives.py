@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from delagrange import checks
 from delagrange.cli import quantities
-from delagrange.drive import Constant, Drive, Ramp, Sine, Step, Tabulated
+from delagrange.common import checks
+from delagrange.drives.drive import Constant, Drive, Ramp, Sine, Step, Tabulated
 
 
 @dataclass(frozen=True)

@@ -13,8 +13,8 @@ from delagrange.cli.initial import initial_state
 from delagrange.cli.interruption import interruptible
 from delagrange.cli.named import inputs_given, material_given, refuse_many
 from delagrange.cli.plots import check_plot, write_plot
-from delagrange.files import check_writable, write_dataset
-from delagrange.inputs import CHARGE_DENSITY, ELECTRIC_FIELD, ELECTRICAL, ElectricalInput
+from delagrange.common.files import check_writable, write_dataset
+from delagrange.drives.inputs import CHARGE_DENSITY, ELECTRIC_FIELD, ELECTRICAL, ElectricalInput
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -87,7 +87,7 @@ def equilibrium(
     check_plot(plot)
     if map_force:
         _refuse_beside_map(context)
-    from delagrange.models import load_model
+    from delagrange.model.load import load_model
 
     module = load_model(model, formulation, lateral_dashpot)
     common = {
@@ -128,7 +128,7 @@ def _refuse_beside_map(context: typer.Context) -> None:
 
 def _critical_map(model: str, texts: list[str], common: dict[str, object], quiet: bool) -> xr.Dataset:
     from delagrange.analysis.rest.critical_map import critical_map
-    from delagrange.progress import working
+    from delagrange.common.progress import working
 
     forces = np.atleast_1d(quantities.axis("map-force", texts, "N"))
     with working(not quiet, f"critical fields at {len(forces)} forces"):
@@ -176,7 +176,7 @@ def _for_file(found: xr.Dataset, suffix: str) -> xr.Dataset:
 
 
 def _report(found: xr.Dataset) -> None:
-    from delagrange.dataset import forces_text
+    from delagrange.run.run_dataset import forces_text
 
     attributes = found.attrs
     title = f"{attributes['model']}: equilibria under {forces_text(found)}, dashpots {attributes['dashpots']}"

@@ -9,7 +9,7 @@ import typer
 
 from delagrange.cli import options as o
 from delagrange.cli.interruption import interruptible
-from delagrange.files import prepare_folder
+from delagrange.common.files import prepare_folder
 
 Only = Annotated[
     str | None,
@@ -33,7 +33,7 @@ def figures(out: o.OutFolder = Path("out/figures"), only: Only = None, quiet: o.
     wanted = _figure_numbers(only)
     prepare_folder(out)
     with interruptible(f"what was finished is in {out} and is used again"):
-        from delagrange.figures.gallery import draw_all
+        from delagrange.reproduction.figures.gallery import draw_all
 
         written = draw_all(out, wanted, not quiet)
     print(f"written: {len(written)} files in {out}")
@@ -42,7 +42,7 @@ def figures(out: o.OutFolder = Path("out/figures"), only: Only = None, quiet: o.
 def _figure_numbers(only: str | None) -> tuple[int, ...] | None:
     if only is None:
         return None
-    from delagrange.figures.gallery import NUMBERS
+    from delagrange.reproduction.figures.gallery import NUMBERS
 
     known = [str(number) for number in NUMBERS]
     texts = [text.strip() for text in only.split(",")]

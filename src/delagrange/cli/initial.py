@@ -6,9 +6,9 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from delagrange.checks import did_you_mean, scalar
 from delagrange.cli import quantities
-from delagrange.initial import EQUILIBRIUM
+from delagrange.common.checks import did_you_mean, scalar
+from delagrange.problem.initial import EQUILIBRIUM
 
 Start = dict[str, float | np.ndarray] | str | None
 

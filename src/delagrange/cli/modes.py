@@ -13,9 +13,9 @@ from delagrange.cli.initial import initial_state
 from delagrange.cli.interruption import interruptible
 from delagrange.cli.named import inputs_given, material_given
 from delagrange.cli.plots import check_plot, write_plot
-from delagrange.files import check_writable, write_dataset
-from delagrange.inputs import ELECTRICAL
-from delagrange.parameters import CHANGEABLE_UNITS
+from delagrange.common.files import check_writable, write_dataset
+from delagrange.drives.inputs import ELECTRICAL
+from delagrange.model.parameters import CHANGEABLE_UNITS
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -66,7 +66,7 @@ def modes(
     if out is not None:
         check_writable(out)
     check_plot(plot)
-    from delagrange.models import load_model
+    from delagrange.model.load import load_model
 
     module = load_model(model, formulation, lateral_dashpot)
     units = _INPUT_UNITS | dict(CHANGEABLE_UNITS)

@@ -7,11 +7,11 @@ from types import ModuleType
 
 import numpy as np
 
-from delagrange import checks
-from delagrange.checks import did_you_mean
 from delagrange.cli import quantities
-from delagrange.model_material import material_of
-from delagrange.parameters import CHANGEABLE_UNITS, SHENG_2015
+from delagrange.common import checks
+from delagrange.common.checks import did_you_mean
+from delagrange.model.model_material import material_of
+from delagrange.model.parameters import CHANGEABLE_UNITS, SHENG_2015
 
 Values = float | np.ndarray
 

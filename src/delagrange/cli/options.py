@@ -10,8 +10,8 @@ import typer
 from typer.models import OptionInfo
 
 from delagrange.cli.quantities import reader
-from delagrange.parameters import CHANGEABLE_UNITS, SHENG_2015, Parameters
-from delagrange.units import with_unit
+from delagrange.common.units import with_unit
+from delagrange.model.parameters import CHANGEABLE_UNITS, SHENG_2015, Parameters
 
 _MODEL = "Model"
 _FORCE = "Force on each loaded edge"

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from delagrange.files import check_file
+from delagrange.common.files import check_file
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

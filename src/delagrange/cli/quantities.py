@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 import typer
 
-from delagrange import checks
-from delagrange.units import unit_name
+from delagrange.common import checks
+from delagrange.common.units import unit_name
 
 _LONGEST_RANGE = 1_000_000  # values; longer ones are slips of the step
 _WITHIN = 1e-9  # of a step: rounding that does not cost a range its last value

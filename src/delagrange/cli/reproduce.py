@@ -8,7 +8,7 @@ import typer
 
 from delagrange.cli import options as o
 from delagrange.cli.interruption import interruptible
-from delagrange.files import prepare_folder
+from delagrange.common.files import prepare_folder
 
 
 def reproduce(out: o.OutFolder = Path("out"), quiet: o.Quiet = False) -> None:

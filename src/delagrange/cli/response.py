@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 import typer
 
-from delagrange import checks
 from delagrange.cli import charge
 from delagrange.cli import options as o
 from delagrange.cli.initial import initial_state
@@ -17,8 +16,9 @@ from delagrange.cli.named import inputs_given, material_given, refuse_many
 from delagrange.cli.plots import check_plot, write_plot
 from delagrange.cli.response_load import Span, electrical_load, load_given, varied_name
 from delagrange.cli.response_tables import report_steady, report_transient
-from delagrange.files import check_writable, write_dataset
-from delagrange.inputs import electrical_input
+from delagrange.common import checks
+from delagrange.common.files import check_writable, write_dataset
+from delagrange.drives.inputs import electrical_input
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -89,7 +89,7 @@ def response(
     )
     if sweeps:
         _check_sweeps(varied, dashpots)
-    from delagrange.models import load_model
+    from delagrange.model.load import load_model
 
     module = load_model(model, formulation, lateral_dashpot)
     load = electrical_load(load, electrical_input(module), module.MODEL)
@@ -142,7 +142,7 @@ def _check_sweeps(varied: str, dashpots: str | None) -> None:
 def _steady(
     model: str, load: Mapping[str, float | Span], more: Mapping[str, object], quiet: bool
 ) -> xr.Dataset:
-    from delagrange.analysis.steady.response import steady_response
+    from delagrange.analysis.steady.steady_response import steady_response
 
     pairs = {
         name: (value.start, value.stop) if isinstance(value, Span) else value for name, value in load.items()
@@ -159,7 +159,7 @@ def _transient(
     quiet: bool,
 ) -> xr.Dataset:
     """Over the varied quantity alone."""
-    from delagrange.response import frequency_response
+    from delagrange.run.frequency_response import frequency_response
 
     checks.positive("duration", duration, "s")
     grid = {name: value.values() if isinstance(value, Span) else value for name, value in load.items()}

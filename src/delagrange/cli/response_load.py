@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from delagrange.cli import quantities
-from delagrange.inputs import CHARGE_DENSITY, ELECTRIC_FIELD, ELECTRICAL, ElectricalInput
-from delagrange.units import unit_name
+from delagrange.common.units import unit_name
+from delagrange.drives.inputs import CHARGE_DENSITY, ELECTRIC_FIELD, ELECTRICAL, ElectricalInput
 
 LOAD_UNITS = {
     "force": "N",

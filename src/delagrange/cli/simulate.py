@@ -13,7 +13,7 @@ from delagrange.cli.drives import field_drive, force_drive
 from delagrange.cli.initial import single_start
 from delagrange.cli.interruption import interruptible
 from delagrange.cli.named import inputs_given, material_given
-from delagrange.files import check_writable, write_dataset
+from delagrange.common.files import check_writable, write_dataset
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -83,12 +83,12 @@ def simulate(
     if out is not None:
         check_writable(out)
     force_load, field_load = force_drive(context.params), field_drive(context.params)
-    from delagrange.models import load_model
+    from delagrange.model.load import load_model
 
     module = load_model(model, formulation, lateral_dashpot)
     start = single_start(initial, {entry.name: entry.unit for entry in module.STATE})
     with interruptible("the run was not finished, nothing was written"):
-        from delagrange.simulation import simulate as integrate
+        from delagrange.run.simulation import simulate as integrate
 
         run = integrate(
             model,

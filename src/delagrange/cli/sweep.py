@@ -13,7 +13,7 @@ from delagrange.cli import options as o
 from delagrange.cli.initial import start_given
 from delagrange.cli.interruption import Interrupted, interruptible
 from delagrange.cli.named import inputs_given, material_given
-from delagrange.files import check_writable, write_dataset
+from delagrange.common.files import check_writable, write_dataset
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -90,15 +90,15 @@ def sweep(
     """
     if out is not None:
         check_writable(out)
-    from delagrange.models import load_model
-    from delagrange.sweep import SWEEP_UNITS
+    from delagrange.model.load import load_model
+    from delagrange.run.sweep import SWEEP_UNITS
 
     module = load_model(model, formulation, lateral_dashpot)
     start = start_given(initial, {entry.name: entry.unit for entry in module.STATE})
     axes = {name: quantities.axis(name, context.params[name], unit) for name, unit in SWEEP_UNITS.items()}
     axes |= material_given(axes, named_parameters, module)
     with interruptible("the sweep was not finished, nothing was written"):
-        from delagrange.response import frequency_response
+        from delagrange.run.frequency_response import frequency_response
 
         with warnings.catch_warnings():
             warnings.filterwarnings("ignore", message="interrupted")  # said once, at the end
@@ -161,7 +161,7 @@ def _title(response: xr.Dataset) -> str:
 
 def _peak_table(response: xr.Dataset) -> Table:
     """The peak of every curve, in the order of the file."""
-    from delagrange.response import peaks
+    from delagrange.run.frequency_response import peaks
 
     found = peaks(response)
     axes = list(found["peak_amplitude"].dims)

@@ -12,7 +12,7 @@ from rich.text import Text
 from delagrange.cli import console
 
 if TYPE_CHECKING:
-    from delagrange.derive.verdict import Verdict
+    from delagrange.derive.check.verdict import Verdict
 
 _COLOURS = {"EQUAL": "green", "SCALED": "cyan", "DIFFERS": "red", "MISSING": "dim"}
 
@@ -24,7 +24,7 @@ def colour(verdict: Verdict) -> str:
 
 def show(verdicts: tuple[Verdict, ...], details: bool) -> None:
     """Print the table, a line for each equation and derivation; with `details` what differs below it."""
-    from delagrange.derive.report import summary
+    from delagrange.derive.check.report import summary
 
     output = console.output()
     console.show("Printed equations against the derived ones", _table(verdicts))
@@ -35,7 +35,7 @@ def show(verdicts: tuple[Verdict, ...], details: bool) -> None:
 
 
 def _table(verdicts: tuple[Verdict, ...]) -> Table:
-    from delagrange.derive.report import HEADINGS, rows
+    from delagrange.derive.check.report import HEADINGS, rows
 
     table = console.table(*HEADINGS[:4])
     for verdict, row in zip(verdicts, rows(verdicts), strict=True):
@@ -44,7 +44,7 @@ def _table(verdicts: tuple[Verdict, ...]) -> Table:
 
 
 def _details(verdicts: tuple[Verdict, ...]) -> Iterable[Text | Padding]:
-    from delagrange.derive.report import rows
+    from delagrange.derive.check.report import rows
 
     for verdict, (number, quantity, model, outcome, detail) in zip(verdicts, rows(verdicts), strict=True):
         if detail:
@@ -54,7 +54,7 @@ def _details(verdicts: tuple[Verdict, ...]) -> Iterable[Text | Padding]:
 
 def as_markdown(verdicts: tuple[Verdict, ...], details: bool) -> str:
     """A Markdown table, with the column of details or without."""
-    from delagrange.derive.report import HEADINGS, rows
+    from delagrange.derive.check.report import HEADINGS, rows
 
     columns = len(HEADINGS) if details else len(HEADINGS) - 1
     lines = [HEADINGS, ("---",) * len(HEADINGS), *rows(verdicts)]

@@ -12,10 +12,10 @@ from delagrange.cli import options as o
 from delagrange.cli.interruption import interruptible
 from delagrange.cli.verdicts import as_markdown, show
 from delagrange.cli.verify_pasted import list_model, verify_pasted
-from delagrange.files import check_file
+from delagrange.common.files import check_file
 
 if TYPE_CHECKING:
-    from delagrange.derive.verdict import Verdict
+    from delagrange.derive.check.verdict import Verdict
 
 _DETAILS = "Show terms without partner, corrections, faulty units and notes as well."
 Details = Annotated[bool, typer.Option("--details/--brief", help=_DETAILS)]
@@ -161,7 +161,7 @@ def _check_together(model: str | None, given: dict[str, object]) -> None:
 
 def as_recorded(verdicts: tuple[Verdict, ...]) -> bool:
     """Whether all verdicts are the recorded ones; those that are not are named on standard error."""
-    from delagrange.derive.record import departures, recorded
+    from delagrange.derive.check.record import departures, recorded
 
     lines = departures(verdicts, recorded())
     for line in lines:

@@ -9,11 +9,11 @@ from rich.text import Text
 
 from delagrange.cli import console
 from delagrange.cli.interruption import interruptible
-from delagrange.models import is_path, load_model
+from delagrange.model.load import is_path, load_model
 
 if TYPE_CHECKING:
-    from delagrange.derive.euler_lagrange import EquationsOfMotion
-    from delagrange.derive.verdict import Verdict
+    from delagrange.derive.check.verdict import Verdict
+    from delagrange.derive.equations.euler_lagrange import EquationsOfMotion
 
 
 def verify_pasted(
@@ -31,8 +31,8 @@ def verify_pasted(
     Raises:
         ValueError: a model, a file, an equation or a symbol is not understood.
     """
-    from delagrange.derive.pasted import PastedEquation, check_equations
-    from delagrange.derive.pasted_file import PastedFile, read_equations, read_symbols
+    from delagrange.derive.check.pasted.check import PastedEquation, check_equations
+    from delagrange.derive.check.pasted.file import PastedFile, read_equations, read_symbols
 
     found = PastedFile(()) if file is None else read_equations(file)
     entries = found.symbols + (() if symbols is None else read_symbols(symbols))
@@ -44,7 +44,7 @@ def verify_pasted(
 
 def list_model(model: str, formulation: str | None, lateral_dashpot: str | None, quiet: bool) -> None:
     """Print the symbols and the equations of a model; raises as `verify_pasted`."""
-    from delagrange.derive.pasted_listing import listed_equations, listed_symbols
+    from delagrange.derive.check.pasted.listing import listed_equations, listed_symbols
 
     eom = _equations_of(model, formulation, lateral_dashpot, quiet)
     table = console.table("symbol", "quantity", "unit", "meaning")
@@ -71,8 +71,8 @@ def _equations_of(
 
 
 def _described(path: Path) -> EquationsOfMotion:
-    from delagrange.derive.model_description import describe
-    from delagrange.derive.model_file import read_model_file
+    from delagrange.derive.model_file.describe import describe
+    from delagrange.derive.model_file.file import read_model_file
     from delagrange.derive.user_model import description_equations
 
     description = describe(read_model_file(path))
@@ -85,7 +85,7 @@ def _described(path: Path) -> EquationsOfMotion:
 def _built_in(model: str, formulation: str | None, lateral_dashpot: str | None) -> EquationsOfMotion:
     """A model by the name that all commands know; `biaxial`, which has no module, is the membrane of two forces."""
     from delagrange.derive import pipeline
-    from delagrange.derive.load_cases import BIAXIAL, EMITTED
+    from delagrange.derive.membrane.load_cases import BIAXIAL, EMITTED
 
     cases = {case.name: case for case in (BIAXIAL, *EMITTED)}
     name = model.replace("-", "_")

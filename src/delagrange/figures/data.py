@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import xarray as xr
 
-from delagrange.files import write_dataset
+from delagrange.common.files import write_dataset
 
 
 def joined(parts: Sequence[xr.Dataset], dimension: str) -> xr.Dataset:

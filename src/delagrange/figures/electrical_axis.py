@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import xarray as xr
 
-from delagrange.inputs import ELECTRIC_FIELD, ELECTRICAL, ElectricalInput
+from delagrange.drives.inputs import ELECTRIC_FIELD, ELECTRICAL, ElectricalInput
 
 
 @dataclass(frozen=True)

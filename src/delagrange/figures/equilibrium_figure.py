@@ -13,7 +13,6 @@ from matplotlib.ticker import LogLocator, NullFormatter
 
 from delagrange.analysis.rest.critical_map import FAST, SLOW, SUDDEN
 from delagrange.analysis.rest.pull_in import critical_names
-from delagrange.dataset import forces_text
 from delagrange.figures.electrical_axis import electrical_axis
 from delagrange.figures.style import (
     BLACK,
@@ -25,6 +24,7 @@ from delagrange.figures.style import (
     new_figure,
     panel_letter,
 )
+from delagrange.run.run_dataset import forces_text
 
 _LINES = {
     "stable": {"color": BLUE, "linestyle": "-"},

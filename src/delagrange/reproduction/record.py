@@ -8,8 +8,8 @@ from math import isclose
 from pathlib import Path
 from typing import Any
 
-from delagrange.reproduction.numbers import Comparison, Found
-from delagrange.reproduction.statements import Judgement
+from delagrange.reproduction.claims.numbers import Comparison, Found
+from delagrange.reproduction.claims.statements import Judgement
 
 RECORD = "found.json"
 SAME_ACCURATE = 1e-6  # relative, of amplitudes: other processors may round otherwise

@@ -7,12 +7,12 @@ from pathlib import Path
 
 from rich.console import Console
 
-from delagrange.figures.gallery import draw_figures
-from delagrange.files import prepare_folder
+from delagrange.common.files import prepare_folder
 from delagrange.reproduction import record
-from delagrange.reproduction.all_runs import all_runs
-from delagrange.reproduction.numbers import compare_peaks
-from delagrange.reproduction.statements import judge
+from delagrange.reproduction.claims.numbers import compare_peaks
+from delagrange.reproduction.claims.statements import judge
+from delagrange.reproduction.figures.gallery import draw_figures
+from delagrange.reproduction.runs.all_runs import all_runs
 from delagrange.reproduction.tables import Table, numbers_table, statements_table
 
 
@@ -63,8 +63,8 @@ def _derive(console: Console) -> tuple[Table, int]:
     from importlib import resources
 
     from delagrange.derive import pipeline
-    from delagrange.derive.record import departures, recorded
-    from delagrange.derive.report import HEADINGS, rows
+    from delagrange.derive.check.record import departures, recorded
+    from delagrange.derive.check.report import HEADINGS, rows
 
     with console.status("deriving ..."):
         walked = pipeline.walk()

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from rich.table import Table as RichTable
 from rich.text import Text
 
-from delagrange.reproduction.numbers import Comparison, Found, agreement
-from delagrange.reproduction.statements import Judgement
+from delagrange.reproduction.claims.numbers import Comparison, Found, agreement
+from delagrange.reproduction.claims.statements import Judgement
 
 _STYLES = {
     "agrees": "green", "yes": "green", "equal": "green",

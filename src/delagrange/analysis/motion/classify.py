@@ -9,17 +9,17 @@ from types import ModuleType
 import numpy as np
 import xarray as xr
 
-from delagrange.analysis.motion.dataset import motion_variables
 from delagrange.analysis.motion.evidence import Evidence, gather
 from delagrange.analysis.motion.lyapunov import observed, spectrum_variables, status_variables
 from delagrange.analysis.motion.motion import Motion, make_motion
+from delagrange.analysis.motion.motion_dataset import motion_variables
 from delagrange.analysis.motion.observation import Observation
 from delagrange.analysis.motion.verdict import Verdict, decide, lost
-from delagrange.dashpots import EVOLVING, FROZEN, RELAXED, dashpot_places, is_damped
-from delagrange.drive import Drive
-from delagrange.inputs import Inputs
-from delagrange.loss import COMPLETED, Limits
-from delagrange.parameters import SHENG_2015, Parameters
+from delagrange.drives.drive import Drive
+from delagrange.drives.inputs import Inputs
+from delagrange.model.parameters import SHENG_2015, Parameters
+from delagrange.problem.dashpots import EVOLVING, FROZEN, RELAXED, dashpot_places, is_damped
+from delagrange.problem.status import COMPLETED, Limits
 
 _VIBRATIONS = 8000  # of the fastest small vibration, to follow by default; 8.7 s of the paper's membrane
 _FORCINGS = 4000  # periods of the forcing, at least

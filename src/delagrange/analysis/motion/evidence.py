@@ -11,7 +11,7 @@ from delagrange.analysis.motion.observation import Observation
 from delagrange.analysis.motion.spectral_lines import Band, Lines, band, find_lines
 from delagrange.analysis.motion.torus import Torus, torus
 from delagrange.analysis.motion.zero_one import zero_one
-from delagrange.loss import COMPLETED
+from delagrange.problem.status import COMPLETED
 
 _GOLDEN = (np.sqrt(5) - 1) / 2  # a mixture of coordinates with such weights is blind to no symmetry
 _SMOOTHED = 0.1  # of the time, over which the logarithm of the tangent's growth is averaged

@@ -16,8 +16,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from delagrange.analysis.motion.verdict import CHAOTIC, PERIODIC, QUASI_PERIODIC
-from delagrange.dashpots import EVOLVING, FROZEN
-from delagrange.drive import Sine
+from delagrange.drives.drive import Sine
+from delagrange.problem.dashpots import EVOLVING, FROZEN
 
 
 @dataclass(frozen=True)

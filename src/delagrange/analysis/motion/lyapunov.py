@@ -16,13 +16,13 @@ import xarray as xr
 from delagrange.analysis.forcing import Forcing
 from delagrange.analysis.motion.motion import Motion, make_motion
 from delagrange.analysis.motion.observation import Observation, observe
-from delagrange.dashpots import EVOLVING, FROZEN
-from delagrange.dataset import status_time_variable, status_variable, variable
-from delagrange.drive import Drive
-from delagrange.inputs import Inputs
-from delagrange.loss import Limits
-from delagrange.parameters import SHENG_2015, Parameters
-from delagrange.progress import progress_bar
+from delagrange.common.progress import progress_bar
+from delagrange.drives.drive import Drive
+from delagrange.drives.inputs import Inputs
+from delagrange.model.parameters import SHENG_2015, Parameters
+from delagrange.problem.dashpots import EVOLVING, FROZEN
+from delagrange.problem.status import Limits
+from delagrange.run.run_dataset import status_time_variable, status_variable, variable
 
 _RUNNING = 50  # times at which the running estimate is given
 _LEFT_OUT = 0.25  # of the time, in which the tangent vectors find their directions

@@ -8,23 +8,24 @@ from types import ModuleType
 
 import numpy as np
 
-from delagrange import checks
 from delagrange.analysis.forcing import Forcing, forcing
 from delagrange.analysis.motion.observation import moving_places
-from delagrange.dashpots import FROZEN, frozen, starting_state
-from delagrange.dataset import run_attributes
-from delagrange.drive import Drive
-from delagrange.flow import Flow, Path, drive_numbers, typical_sizes
-from delagrange.flows import resolve_flow
-from delagrange.initial import EQUILIBRIUM_MEANING, is_equilibrium
-from delagrange.inputs import Inputs
-from delagrange.loss import Limits
-from delagrange.model_material import material_of
-from delagrange.models import check_offers, load_model
-from delagrange.parameters import Parameters
-from delagrange.problem import Problem, input_name, make_problem
-from delagrange.tolerances import DURATION_RANGE, check_duration
-from delagrange.units import with_unit
+from delagrange.common import checks
+from delagrange.common.units import with_unit
+from delagrange.drives.drive import Drive
+from delagrange.drives.inputs import Inputs
+from delagrange.engines.flow import Flow, Path, drive_numbers, typical_sizes
+from delagrange.engines.flows import resolve_flow
+from delagrange.equilibrium.start import starting_state
+from delagrange.model.load import check_offers, load_model
+from delagrange.model.model_material import material_of
+from delagrange.model.parameters import Parameters
+from delagrange.problem.dashpots import FROZEN, frozen
+from delagrange.problem.initial import EQUILIBRIUM_MEANING, is_equilibrium
+from delagrange.problem.problem import Problem, input_name, make_problem
+from delagrange.problem.status import Limits
+from delagrange.problem.tolerances import DURATION_RANGE, check_duration
+from delagrange.run.run_dataset import run_attributes
 
 TOLERANCE_RANGE = (1e-13, 1e-4)
 
@@ -50,7 +51,7 @@ class Motion:
         """How many periods of the forcing make up `duration` [s], at least 16.
 
         Raises:
-            ValueError: a duration outside `delagrange.tolerances.DURATION_RANGE`.
+            ValueError: a duration outside `delagrange.problem.tolerances.DURATION_RANGE`.
         """
         return max(16, round(check_duration(duration) / self.forcing.period))
 

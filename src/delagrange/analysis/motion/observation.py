@@ -8,10 +8,10 @@ from itertools import pairwise
 import numpy as np
 
 from delagrange.analysis.forcing import Forcing
-from delagrange.dashpots import FROZEN
-from delagrange.flow import Flow, Path
-from delagrange.loss import COMPLETED
-from delagrange.progress import Progress
+from delagrange.common.progress import Progress
+from delagrange.engines.flow import Flow, Path
+from delagrange.problem.dashpots import FROZEN
+from delagrange.problem.status import COMPLETED
 
 _PARTS = 40  # pieces of a run, between which the progress is shown
 _AT_ONCE = 10_000  # periods of a transient
@@ -27,7 +27,7 @@ class Observation:
     states: np.ndarray  # (n, n_state)
     growth: np.ndarray  # (n - 1, n_moving), logarithms of the growth of the orthogonalised tangent columns
     divergence: np.ndarray  # (n,) [1], integral of the trace of the Jacobian over time from the first time
-    status: int  # place in delagrange.loss.STATUS
+    status: int  # place in delagrange.problem.status.STATUS
     status_time: float  # [s]
 
     @property

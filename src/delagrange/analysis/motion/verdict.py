@@ -8,7 +8,7 @@ import numpy as np
 
 from delagrange.analysis.motion.evidence import Evidence
 from delagrange.analysis.motion.observation import Observation
-from delagrange.loss import STATUS
+from delagrange.problem.status import STATUS
 
 AT_REST, PERIODIC, QUASI_PERIODIC = "at rest", "periodic", "quasi-periodic"
 CHAOTIC, UNDECIDED, LOST = "chaotic", "undecided", "lost"

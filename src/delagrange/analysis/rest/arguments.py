@@ -9,12 +9,9 @@ from types import ModuleType
 
 import numpy as np
 
-from delagrange import checks
-from delagrange.dataset import run_attributes, variable
-from delagrange.drive import Drive
-from delagrange.grid import Grid, make_grid
-from delagrange.initial import PREFIX, checked_initial, is_stretch
-from delagrange.inputs import (
+from delagrange.common import checks
+from delagrange.drives.drive import Drive
+from delagrange.drives.inputs import (
     CHARGE_DENSITY,
     ELECTRIC_FIELD,
     FORCE,
@@ -25,12 +22,15 @@ from delagrange.inputs import (
     is_zero_number,
     named_inputs,
 )
-from delagrange.loss import Limits
-from delagrange.material import Material
-from delagrange.model_material import material_of
-from delagrange.models import load_model
-from delagrange.parameters import Parameters
-from delagrange.problem import Problem, make_problem
+from delagrange.model.load import load_model
+from delagrange.model.material import Material
+from delagrange.model.model_material import material_of
+from delagrange.model.parameters import Parameters
+from delagrange.problem.initial import PREFIX, checked_initial, is_stretch
+from delagrange.problem.problem import Problem, make_problem
+from delagrange.problem.status import Limits
+from delagrange.run.grid import Grid, make_grid
+from delagrange.run.run_dataset import run_attributes, variable
 
 FROZEN_MEANING = "frozen: the dashpots stay as in the reference state or in initial_state"
 RELAXED_MEANING = "relaxed: the dashpots are at rest, too"
@@ -149,7 +149,7 @@ def without_electrical(model: ModuleType, inputs: Inputs | None) -> tuple[Inputs
 
     Raises:
         ValueError: the field, which has an argument of its own; a drive; a model without such an input; or as
-            `delagrange.inputs.named_inputs`.
+            `delagrange.drives.inputs.named_inputs`.
     """
     given, electrical = named_inputs(model, inputs), electrical_input(model)
     if electrical is ELECTRIC_FIELD and electrical.name in given:

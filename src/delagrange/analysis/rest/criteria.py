@@ -6,10 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from delagrange import checks
-from delagrange.analysis.rest.statics import Statics, typical_electrical
-from delagrange.inputs import ELECTRIC_FIELD
-from delagrange.problem import Problem
+from delagrange.common import checks
+from delagrange.drives.inputs import ELECTRIC_FIELD
+from delagrange.equilibrium.statics import Statics, typical_electrical
+from delagrange.problem.problem import Problem
 
 _NEGLIGIBLE = (
     1e-9  # of the typical force and the electric one: an edge without load carries zero up to round-off

@@ -7,12 +7,12 @@ from types import ModuleType
 import numpy as np
 import xarray as xr
 
-from delagrange import checks
 from delagrange.analysis.rest.dynamic_pull_in import dynamic_pull_in
 from delagrange.analysis.rest.pull_in import critical_names, pull_in
-from delagrange.dashpots import FROZEN, RELAXED
-from delagrange.dataset import variable
-from delagrange.inputs import ELECTRICAL
+from delagrange.common import checks
+from delagrange.drives.inputs import ELECTRICAL
+from delagrange.problem.dashpots import FROZEN, RELAXED
+from delagrange.run.run_dataset import variable
 
 SLOW, FAST, SUDDEN = "static, dashpots relaxed", "static, dashpots frozen", "dynamic, dashpots frozen"
 _CRITERIA = ("breakdown_field", "breakdown_exponent", "smallest_tension")

@@ -9,25 +9,25 @@ from types import ModuleType
 import numpy as np
 import xarray as xr
 
-from delagrange import checks
-from delagrange.analysis.continuation import Lost, parameter_of
 from delagrange.analysis.rest.arguments import FROZEN_MEANING, Cases, first_coordinate, make_cases
-from delagrange.analysis.rest.branches import at_zero_field, connected_pieces
 from delagrange.analysis.rest.criteria import material
 from delagrange.analysis.rest.energy_barrier import barrier_at_start_energy
-from delagrange.analysis.rest.pieces import FOLD, Piece, point_at
-from delagrange.analysis.rest.statics import Statics, make_statics
 from delagrange.analysis.rest.sudden_field import ATOL, FINEST, RTOL, Bracket, bracket_by_integration
-from delagrange.analysis.rest.vibration import vibration
-from delagrange.dashpots import EVOLVING, FROZEN, RELAXED, is_damped
-from delagrange.dataset import variable
-from delagrange.engines import AUTO, ENGINES
-from delagrange.inputs import ELECTRIC_FIELD, ElectricalInput, Inputs, electrical_input
-from delagrange.loss import Limits
-from delagrange.models import check_offers
-from delagrange.parameters import SHENG_2015, Parameters
-from delagrange.problem import Problem
-from delagrange.tolerances import check_duration
+from delagrange.common import checks
+from delagrange.drives.inputs import ELECTRIC_FIELD, ElectricalInput, Inputs, electrical_input
+from delagrange.engines.engines import AUTO, ENGINES
+from delagrange.equilibrium.branches import at_zero_field, connected_pieces
+from delagrange.equilibrium.continuation import Lost, parameter_of
+from delagrange.equilibrium.pieces import FOLD, Piece, point_at
+from delagrange.equilibrium.statics import Statics, make_statics
+from delagrange.equilibrium.vibration import vibration
+from delagrange.model.load import check_offers
+from delagrange.model.parameters import SHENG_2015, Parameters
+from delagrange.problem.dashpots import EVOLVING, FROZEN, RELAXED, is_damped
+from delagrange.problem.problem import Problem
+from delagrange.problem.status import Limits
+from delagrange.problem.tolerances import check_duration
+from delagrange.run.run_dataset import variable
 
 REFERENCE, EQUILIBRIUM = "reference", "equilibrium"
 _PERIODS = 200  # of the slowest vibration at the start

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from delagrange.analysis.continuation import Point
-from delagrange.analysis.rest.pieces import Piece, locate_on
-from delagrange.analysis.rest.statics import Statics
+from delagrange.equilibrium.continuation import Point
+from delagrange.equilibrium.pieces import Piece, locate_on
+from delagrange.equilibrium.statics import Statics
 
 
 def barrier_at_start_energy(statics: Statics, pieces: list[Piece], start: np.ndarray) -> Point | None:

@@ -9,7 +9,6 @@ from types import ModuleType
 import numpy as np
 import xarray as xr
 
-from delagrange import checks
 from delagrange.analysis.rest.arguments import (
     FROZEN_MEANING,
     RELAXED_MEANING,
@@ -18,17 +17,18 @@ from delagrange.analysis.rest.arguments import (
     single_case,
     without_electrical,
 )
-from delagrange.analysis.rest.branches import all_pieces, limit_points, why_not_from_unloaded
 from delagrange.analysis.rest.criteria import Criteria, material
 from delagrange.analysis.rest.equilibria_dataset import branch_variables, curve_variables, limit_variables
 from delagrange.analysis.rest.equilibria_grid import grid_variables
-from delagrange.analysis.rest.pieces import Piece
-from delagrange.analysis.rest.statics import Statics, make_statics
-from delagrange.dataset import variable
-from delagrange.inputs import CHARGE_DENSITY, Inputs
-from delagrange.loss import Limits
-from delagrange.models import load_model
-from delagrange.parameters import SHENG_2015, Parameters
+from delagrange.common import checks
+from delagrange.drives.inputs import CHARGE_DENSITY, Inputs
+from delagrange.equilibrium.branches import all_pieces, limit_points, why_not_from_unloaded
+from delagrange.equilibrium.pieces import Piece
+from delagrange.equilibrium.statics import Statics, make_statics
+from delagrange.model.load import load_model
+from delagrange.model.parameters import SHENG_2015, Parameters
+from delagrange.problem.status import Limits
+from delagrange.run.run_dataset import variable
 
 
 @dataclass(frozen=True)

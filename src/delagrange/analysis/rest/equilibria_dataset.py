@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 
-from delagrange.analysis.continuation import Point
 from delagrange.analysis.rest.arguments import stretch_alias
-from delagrange.analysis.rest.branches import LIMIT_MEANING, LimitPoint
 from delagrange.analysis.rest.criteria import Criteria, breakdown_margin, material, tension_margin
-from delagrange.analysis.rest.pieces import FOLD, Piece
-from delagrange.analysis.rest.statics import Statics
-from delagrange.analysis.rest.vibration import STABILITY_MEANING, growing_directions, stability_name
-from delagrange.dataset import variable
-from delagrange.inputs import ELECTRIC_FIELD, ElectricalInput
+from delagrange.drives.inputs import ELECTRIC_FIELD, ElectricalInput
+from delagrange.equilibrium.branches import LIMIT_MEANING, LimitPoint
+from delagrange.equilibrium.continuation import Point
+from delagrange.equilibrium.pieces import FOLD, Piece
+from delagrange.equilibrium.statics import Statics
+from delagrange.equilibrium.vibration import STABILITY_MEANING, growing_directions, stability_name
+from delagrange.run.run_dataset import variable
 
 _ENDING_MEANING = (
     "fold: it turns back there, at a limit point; limit: a stretch beyond the limits; lost: the continuation "

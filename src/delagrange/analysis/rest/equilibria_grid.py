@@ -15,17 +15,17 @@ from delagrange.analysis.rest.criteria import (
     thickness_stretch,
     true_field,
 )
-from delagrange.analysis.rest.pieces import FOLD, Piece, point_at
-from delagrange.analysis.rest.statics import Statics
-from delagrange.analysis.rest.vibration import (
+from delagrange.drives.inputs import ELECTRIC_FIELD, ElectricalInput
+from delagrange.equilibrium.pieces import FOLD, Piece, point_at
+from delagrange.equilibrium.statics import Statics
+from delagrange.equilibrium.vibration import (
     MARGINAL,
     STABILITY_MEANING,
     STABLE,
     growing_directions,
     stability_name,
 )
-from delagrange.dataset import variable
-from delagrange.inputs import ELECTRIC_FIELD, ElectricalInput
+from delagrange.run.run_dataset import variable
 
 NO_EQUILIBRIUM = "no equilibrium"
 _MEASURES = {

@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from types import ModuleType
 
 import numpy as np
 import xarray as xr
 
-from delagrange import checks
-from delagrange.analysis.continuation import Lost
 from delagrange.analysis.rest.arguments import (
     FROZEN_MEANING,
     RELAXED_MEANING,
@@ -19,36 +16,28 @@ from delagrange.analysis.rest.arguments import (
     make_cases,
     without_electrical,
 )
-from delagrange.analysis.rest.branches import connected_pieces
 from delagrange.analysis.rest.modes_dataset import modes_variables
-from delagrange.analysis.rest.pieces import FOLD, Piece, point_at
-from delagrange.analysis.rest.statics import Statics, make_statics
-from delagrange.analysis.rest.vibration import (
+from delagrange.common import checks
+from delagrange.drives.inputs import CHARGE_DENSITY, Inputs
+from delagrange.equilibrium.branches import connected_pieces
+from delagrange.equilibrium.continuation import Lost
+from delagrange.equilibrium.pieces import FOLD, Piece, point_at
+from delagrange.equilibrium.statics import Statics, make_statics
+from delagrange.equilibrium.vibration import (
+    Spectrum,
     growing_directions,
     relaxing_vibration,
     stability_name,
     vibration,
 )
-from delagrange.dashpots import FROZEN, RELAXED, is_damped
-from delagrange.dataset import variable
-from delagrange.inputs import CHARGE_DENSITY, Inputs
-from delagrange.loss import Limits
-from delagrange.models import load_model
-from delagrange.parameters import SHENG_2015, Parameters
-from delagrange.problem import Problem
+from delagrange.model.load import load_model
+from delagrange.model.parameters import SHENG_2015, Parameters
+from delagrange.problem.dashpots import FROZEN, RELAXED, is_damped
+from delagrange.problem.problem import Problem
+from delagrange.problem.status import Limits
+from delagrange.run.run_dataset import variable
 
 _UNDAMPED = "a parallel dashpot or the medium damps: the frequencies are those without that damping"
-
-
-@dataclass(frozen=True)
-class Spectrum:
-    """What is known of the vibrations about one equilibrium; NaN where there is none."""
-
-    status: str
-    state: np.ndarray  # (n_state,)
-    rates: np.ndarray  # (n_coordinates,) of complex [1/s]
-    shapes: np.ndarray  # (n_coordinates, n_coordinates), of each mode in a column
-    relaxation: np.ndarray  # (n_state,), real rates [1/s]
 
 
 def modes(

@@ -4,17 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from types import ModuleType
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from delagrange.analysis.rest.arguments import stretch_alias
-from delagrange.analysis.rest.vibration import STABILITY_MEANING
-from delagrange.dataset import variable
-from delagrange.inputs import ElectricalInput, electrical_input
-
-if TYPE_CHECKING:
-    from delagrange.analysis.rest.modes import Spectrum
+from delagrange.drives.inputs import ElectricalInput, electrical_input
+from delagrange.equilibrium.vibration import STABILITY_MEANING, Spectrum
+from delagrange.run.run_dataset import variable
 
 _DOUBLING = (
     "the {text} enters squared, and ({E} sin 2 pi f t)^2 = {E}^2 (1 - cos 4 pi f t) / 2: a {text} at f without bias "

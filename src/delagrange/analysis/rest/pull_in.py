@@ -9,8 +9,6 @@ from types import ModuleType
 import numpy as np
 import xarray as xr
 
-from delagrange import checks
-from delagrange.analysis.continuation import Lost, Point, parameter_of
 from delagrange.analysis.rest.arguments import (
     FROZEN_MEANING,
     RELAXED_MEANING,
@@ -18,7 +16,6 @@ from delagrange.analysis.rest.arguments import (
     make_cases,
     stretch_alias,
 )
-from delagrange.analysis.rest.branches import LIMIT_MEANING, connected_pieces, limit_points, stable_until
 from delagrange.analysis.rest.criteria import (
     BREAKDOWN_DEFINITION,
     Criteria,
@@ -28,13 +25,16 @@ from delagrange.analysis.rest.criteria import (
     tension_margin,
     true_field,
 )
-from delagrange.analysis.rest.pieces import FOLD, Piece, locate_on
-from delagrange.analysis.rest.statics import Statics, make_statics
-from delagrange.dashpots import FROZEN, RELAXED
-from delagrange.dataset import variable
-from delagrange.inputs import ELECTRIC_FIELD, ElectricalInput, Inputs, electrical_input
-from delagrange.loss import Limits
-from delagrange.parameters import SHENG_2015, Parameters
+from delagrange.common import checks
+from delagrange.drives.inputs import ELECTRIC_FIELD, ElectricalInput, Inputs, electrical_input
+from delagrange.equilibrium.branches import LIMIT_MEANING, connected_pieces, limit_points, stable_until
+from delagrange.equilibrium.continuation import Lost, Point, parameter_of
+from delagrange.equilibrium.pieces import FOLD, Piece, locate_on
+from delagrange.equilibrium.statics import Statics, make_statics
+from delagrange.model.parameters import SHENG_2015, Parameters
+from delagrange.problem.dashpots import FROZEN, RELAXED
+from delagrange.problem.status import Limits
+from delagrange.run.run_dataset import variable
 
 NO_LIMIT = "no limit point up to the limits"
 NO_EQUILIBRIUM = "no equilibrium without field"  # or charge

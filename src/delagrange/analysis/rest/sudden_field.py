@@ -6,14 +6,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from delagrange import loss
-from delagrange.drive import Constant
-from delagrange.engines import ENGINES, resolve_numerics
-from delagrange.inputs import electrical_input
-from delagrange.lanes import Outcome, Settings
-from delagrange.loss import Limits
-from delagrange.problem import Problem
-from delagrange.sweep import make_settings
+from delagrange.drives.drive import Constant
+from delagrange.drives.inputs import electrical_input
+from delagrange.engines.engines import ENGINES, resolve_numerics
+from delagrange.engines.lanes import Outcome, Settings
+from delagrange.problem import status as loss
+from delagrange.problem.problem import Problem
+from delagrange.problem.status import Limits
+from delagrange.run.sweep import make_settings
 
 _LANES = 64
 _ROUNDS = 8

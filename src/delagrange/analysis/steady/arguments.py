@@ -7,12 +7,12 @@ from types import ModuleType
 
 import numpy as np
 
-from delagrange import checks
 from delagrange.analysis.steady.load import LOAD_UNITS
 from delagrange.analysis.steady.search import Range
-from delagrange.inputs import ELECTRICAL, ElectricalInput, electrical_input
-from delagrange.material import Material
-from delagrange.units import shown, with_unit
+from delagrange.common import checks
+from delagrange.common.units import shown, with_unit
+from delagrange.drives.inputs import ELECTRICAL, ElectricalInput, electrical_input
+from delagrange.model.material import Material
 
 _MOST_VIBRATIONS = 10_000
 

@@ -8,11 +8,11 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from delagrange.analysis.rest.statics import Statics
 from delagrange.analysis.steady.floquet import BRANCH_POINT, FOLD
 from delagrange.analysis.steady.search import LEFT, Search, SteadyBranch
 from delagrange.analysis.steady.starts import Equilibria, equilibria_of, starts
-from delagrange.progress import Progress
+from delagrange.common.progress import Progress
+from delagrange.equilibrium.statics import Statics
 
 _BEYOND = 0.004  # of the span: how far behind a fold or an end a further start is made
 FINISHED, INTERRUPTED, ENOUGH = "finished", "interrupted", "ended at the most branches"

@@ -16,9 +16,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.polynomial import Polynomial
 
-from delagrange.analysis.continuation import Lost, Point, Residual, locate, turning
 from delagrange.analysis.steady.periodic_qr import product_logarithms
 from delagrange.analysis.steady.shooting import Orbit, Parts
+from delagrange.equilibrium.continuation import Lost, Point, Residual, locate, turning
 
 STABLE, NEUTRAL, UNSTABLE, MARGINAL = "stable", "neutral", "unstable", "marginal"
 STABILITY_MEANING = (

@@ -6,10 +6,10 @@ from collections.abc import Mapping
 from dataclasses import replace
 from types import ModuleType
 
-from delagrange.drive import Constant, Drive, Sine
-from delagrange.flow import AMPLITUDE, BIAS, FREQUENCY
-from delagrange.inputs import ELECTRICAL, FORCE, ElectricalInput, Inputs, electrical_input, has_input
-from delagrange.problem import Problem
+from delagrange.drives.drive import Constant, Drive, Sine
+from delagrange.drives.inputs import ELECTRICAL, FORCE, ElectricalInput, Inputs, electrical_input, has_input
+from delagrange.engines.flow import AMPLITUDE, BIAS, FREQUENCY
+from delagrange.problem.problem import Problem
 
 _ELECTRICAL_UNITS = {name: each.unit for each in ELECTRICAL.values() for name in (each.amplitude, each.bias)}
 LOAD_UNITS: Mapping[str, str] = {"force": "N", **_ELECTRICAL_UNITS, "frequency": "Hz"}  # of any model

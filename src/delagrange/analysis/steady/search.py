@@ -8,7 +8,12 @@ from itertools import pairwise
 
 import numpy as np
 
-from delagrange.analysis.continuation import (
+from delagrange.analysis.steady import floquet
+from delagrange.analysis.steady.floquet import Bifurcation
+from delagrange.analysis.steady.load import LOAD_UNITS
+from delagrange.analysis.steady.shooting import Shooting
+from delagrange.common.units import with_unit
+from delagrange.equilibrium.continuation import (
     Branch,
     Lost,
     Point,
@@ -17,11 +22,6 @@ from delagrange.analysis.continuation import (
     locate,
     parameter_of,
 )
-from delagrange.analysis.steady import floquet
-from delagrange.analysis.steady.floquet import Bifurcation
-from delagrange.analysis.steady.load import LOAD_UNITS
-from delagrange.analysis.steady.shooting import Shooting
-from delagrange.units import with_unit
 
 _ON_BRANCH = 0.1  # of the chord between neighbours: nearer to it, a solution is on their branch
 _AT_LEAST = 1e-7  # scaled distance below which two solutions are one, however near the neighbours are

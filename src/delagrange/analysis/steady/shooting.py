@@ -14,13 +14,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from delagrange import loss
-from delagrange.analysis.continuation import Evaluation, Lost
-from delagrange.analysis.rest.statics import input_place
 from delagrange.analysis.steady.load import LOAD_UNITS, source_of, under_load
-from delagrange.flow import Flow, Path, Source, Travel
-from delagrange.inputs import electrical_input
-from delagrange.problem import Problem
+from delagrange.drives.inputs import electrical_input
+from delagrange.engines.flow import Flow, Path, Source, Travel
+from delagrange.equilibrium.continuation import Evaluation, Lost
+from delagrange.equilibrium.statics import input_place
+from delagrange.problem import status as loss
+from delagrange.problem.problem import Problem
 
 
 class Parts(NamedTuple):

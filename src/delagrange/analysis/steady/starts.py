@@ -8,13 +8,13 @@ from functools import cache
 
 import numpy as np
 
-from delagrange.analysis.continuation import Lost, Settings, continue_branch, solve
-from delagrange.analysis.rest.seeds import equilibria_at
-from delagrange.analysis.rest.statics import Statics
 from delagrange.analysis.steady.load import forces_of
 from delagrange.analysis.steady.search import Range, Search
 from delagrange.analysis.steady.shooting import Shooting
-from delagrange.inputs import ElectricalInput, electrical_input
+from delagrange.drives.inputs import ElectricalInput, electrical_input
+from delagrange.equilibrium.continuation import Lost, Settings, continue_branch, solve
+from delagrange.equilibrium.seeds import equilibria_at
+from delagrange.equilibrium.statics import Statics
 
 _FARTHEST = 1.5  # of the wanted amplitude of the field: folds back from beyond are followed that far
 _GROWTH = Settings(

@@ -9,25 +9,26 @@ from types import ModuleType
 import numpy as np
 import xarray as xr
 
-from delagrange import checks, loss
 from delagrange.analysis.rest.arguments import refuse_electrical
-from delagrange.analysis.rest.seeds import equilibria_at
-from delagrange.analysis.rest.statics import Statics, make_statics
-from delagrange.analysis.rest.vibration import growing_directions
 from delagrange.analysis.steady.arguments import electrical_numbers, load_number, single_material
 from delagrange.analysis.steady.load import LOAD_UNITS, forces_of, sine_of, under_load, with_electrical
-from delagrange.dashpots import FROZEN, RELAXED, given_state, is_damped
-from delagrange.dataset import run_attributes, status_time_variable, status_variable, variable
-from delagrange.flow import Flow, Path, typical_sizes
-from delagrange.flows import resolve_flow
-from delagrange.inputs import ELECTRIC_FIELD, constant_inputs, electrical_input
-from delagrange.loss import COMPLETED, INTERRUPTED, Limits
-from delagrange.model_material import material_of
-from delagrange.models import load_model
-from delagrange.parameters import SHENG_2015, Parameters
-from delagrange.problem import Problem, make_problem
-from delagrange.progress import Progress, progress_bar
-from delagrange.units import with_unit
+from delagrange.common import checks
+from delagrange.common.progress import Progress, progress_bar
+from delagrange.common.units import with_unit
+from delagrange.drives.inputs import ELECTRIC_FIELD, constant_inputs, electrical_input
+from delagrange.engines.flow import Flow, Path, typical_sizes
+from delagrange.engines.flows import resolve_flow
+from delagrange.equilibrium.seeds import equilibria_at
+from delagrange.equilibrium.statics import Statics, make_statics
+from delagrange.equilibrium.vibration import growing_directions
+from delagrange.model.load import load_model
+from delagrange.model.model_material import material_of
+from delagrange.model.parameters import SHENG_2015, Parameters
+from delagrange.problem import status as loss
+from delagrange.problem.dashpots import FROZEN, RELAXED, given_state, is_damped
+from delagrange.problem.problem import Problem, make_problem
+from delagrange.problem.status import COMPLETED, INTERRUPTED, Limits
+from delagrange.run.run_dataset import run_attributes, status_time_variable, status_variable, variable
 
 _TOLERANCES = (1e-14, 1e-6)
 _LAST = "half of peak to peak over the last {measure} periods of the {stem} at each frequency, after {settle} to settle"

@@ -1,0 +1,164 @@
+"""From a kernel description to the text of a Python module.
+
+All choices are made here; the template places text and decides nothing. The same description gives
+the same text on any machine: no date, no path, no host, no set iterated.
+"""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Mapping
+from typing import Any
+
+import sympy as sp
+
+from delagrange.derive.check.verdict import Outcome, Verdict
+from delagrange.derive.emit.code_lines import WIDTH, broken, unpacked
+from delagrange.derive.emit.template import render
+from delagrange.derive.kernel.spec import Assignment, KernelFunction, KernelSpec
+from delagrange.derive.notation.printer import NUMPY_FUNCTIONS, ExpressionPrinter, text_printer
+from delagrange.derive.notation.symbols import Quantity
+
+_TEMPLATE = "numpy_module.py.jinja"
+
+_NUMPY = ExpressionPrinter(lambda symbol: symbol.name, NUMPY_FUNCTIONS)
+
+
+def _assignment_lines(assignment: Assignment) -> list[str]:
+    comment = [f"    # {assignment.comment}"] if assignment.comment else []
+    return comment + broken(f"{assignment.name} = ", assignment.expression, _NUMPY, "    ")
+
+
+def _arguments(function: KernelFunction, quantities: tuple[Quantity, ...], source: str) -> list[str]:
+    """Unpack what the function uses, `_` for what it does not; nothing where it uses none."""
+    names = [quantity.name if function.uses(quantity.name) else "_" for quantity in quantities]
+    return [] if all(name == "_" for name in names) else unpacked(names, source)
+
+
+def _return_lines(function: KernelFunction) -> list[str]:
+    outputs = [_NUMPY(output) for output in function.outputs]
+    if not function.shape:
+        return broken("return ", function.outputs[0], _NUMPY, "    ")
+    line = f"    return _stack({function.shape!r}, {', '.join(outputs)})"
+    if len(line) <= WIDTH:
+        return [line]
+    return [
+        "    return _stack(",
+        f"        {function.shape!r},",
+        *(f"        {output}," for output in outputs),
+        "    )",
+    ]
+
+
+def _acceleration_lines(function: KernelFunction, spec: KernelSpec) -> list[str]:
+    if not function.accelerations:
+        return []
+    n, names = spec.coordinate_count, function.accelerations
+    if n == 1:
+        return [f"    {names[0]} = rhs(state, inputs, parameters)[1]"]
+    return [f"    {', '.join(names)} = rhs(state, inputs, parameters)[{n}:{2 * n}]"]
+
+
+def _shape_text(shape: tuple[int, ...]) -> str:
+    return f"({', '.join(str(size) for size in shape)}, ...)" if shape else "(...)"
+
+
+def _function_view(function: KernelFunction, spec: KernelSpec) -> dict[str, Any]:
+    body = [
+        *_arguments(function, spec.state, "state"),
+        *_arguments(function, spec.inputs, "inputs"),
+        *_arguments(function, spec.parameters, "parameters"),
+        *_acceleration_lines(function, spec),
+        *(line for assignment in function.assignments for line in _assignment_lines(assignment)),
+        *_return_lines(function),
+    ]
+    return {
+        "name": function.name,
+        "summary": function.summary,
+        "returns": f"Array {_shape_text(function.shape)} [{function.unit}].",
+        "body": "\n".join(body),
+    }
+
+
+def _equation_lines(left: sp.Expr, right: sp.Expr, printer: ExpressionPrinter) -> list[str]:
+    return broken(f"{printer(left)} = ", right, printer, "    ")
+
+
+def _verdict_line(verdict: Verdict, printer: ExpressionPrinter) -> str:
+    text = f"Eq. ({verdict.number}): {verdict.outcome}"
+    if verdict.outcome is Outcome.SCALED:
+        text += f" of the derived one by {printer(verdict.factor)}"
+    return text
+
+
+def _source_line(source: str) -> str:
+    return textwrap.fill(source, WIDTH, initial_indent="    ", subsequent_indent="        ")
+
+
+def _default_lines(defaults: Mapping[str, float]) -> list[str]:
+    return [f"    {name!r}: {float(value)!r},".replace("'", '"') for name, value in defaults.items()]
+
+
+def _start_text(spec: KernelSpec) -> str:
+    held = bool(any(value.free_symbols for value in spec.reference_state)) or spec.reactions != ()
+    if spec.origin.start:
+        return spec.origin.start
+    if held:
+        return (
+            "State at rest with the free axis undeformed; a dashpot along the held axis has relaxed "
+            "to its stretch."
+        )
+    return "State at rest in the reference configuration."
+
+
+def _as_float(value: sp.Expr) -> str:
+    return f"{value}.0" if value.is_Integer else _NUMPY(value)
+
+
+def _reference_names(spec: KernelSpec) -> list[str]:
+    used = {symbol.name for value in spec.reference_state for symbol in value.free_symbols}
+    return [quantity.name if quantity.name in used else "_" for quantity in spec.parameters]
+
+
+def _view(spec: KernelSpec) -> dict[str, Any]:
+    """Everything that the template places, ready as text."""
+    names, printer = _reference_names(spec), text_printer(spec.quantities)
+    return {
+        "command": spec.origin.command,
+        "body": spec.origin.body,
+        "notation": spec.origin.notation,
+        "sources": "\n".join(_source_line(source) for source in spec.origin.sources),
+        "has_defaults": spec.defaults is not None,
+        "defaults": "\n".join(_default_lines(spec.defaults or {})),
+        "start": _start_text(spec),
+        "title": spec.title,
+        "name": spec.name,
+        "load_case": spec.load_case,
+        "formulation": spec.formulation,
+        "remark": textwrap.fill(spec.remark, WIDTH),
+        "equations": "\n".join(
+            line for left, right in spec.formulas for line in _equation_lines(left, right, printer)
+        ),
+        "verdicts": "\n".join(
+            textwrap.fill(
+                _verdict_line(v, printer), WIDTH, initial_indent="    ", subsequent_indent="        "
+            )
+            for v in spec.verdicts
+        ),
+        "digest": spec.digest,
+        "sympy_version": sp.__version__,
+        "coordinate_count": spec.coordinate_count,
+        "state": spec.state,
+        "inputs": spec.inputs,
+        "parameters": spec.parameters,
+        "reactions": spec.reactions,
+        "functions": [_function_view(function, spec) for function in spec.functions],
+        "reference_lines": "\n".join([] if set(names) <= {"_"} else unpacked(names, "parameters")),
+        "reference_state": ", ".join(_as_float(value) for value in spec.reference_state),
+        "state_size": len(spec.state),
+    }
+
+
+def emit(spec: KernelSpec) -> str:
+    """The text of the NumPy module that `spec` describes."""
+    return render(_TEMPLATE, _view(spec))

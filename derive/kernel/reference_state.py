@@ -1,0 +1,26 @@
+"""The state in which a model begins, by the parameters of the model."""
+
+from __future__ import annotations
+
+import sympy as sp
+
+from delagrange.derive.equations.euler_lagrange import EquationsOfMotion
+from delagrange.derive.kernel.function import named
+
+
+def reference_state(eom: EquationsOfMotion) -> tuple[sp.Expr, ...]:
+    """At rest in the reference configuration, uncharged; a dashpot along a held axis has relaxed to its stretch.
+
+    Where the relation between the stretches begins elsewhere, dashpots have relaxed to the stretches there.
+    """
+    load_case, n = eom.load_case, len(eom.load_case.coordinates)
+    begin = load_case.start or (sp.Integer(1),) * n
+    at_start = dict(zip((c.value.symbol for c in load_case.coordinates), begin, strict=True))
+    stretches = [stretch.subs(at_start) for stretch in load_case.stretches]
+    relaxed = {
+        xi: stretches[place % 2] for place, xi in reversed([*enumerate(load_case.inelastic_stretches)])
+    }
+    uncharged = () if eom.charge_balance is None else (sp.Integer(0),)
+    flowing = (relaxed[internal.value.symbol] for internal in load_case.internals)
+    values = (*begin, *[sp.Integer(0)] * n, *flowing, *uncharged)
+    return tuple(named(value, eom.quantities) for value in values)

@@ -1,0 +1,210 @@
+"""Dimensions over the SI base units kg, m, s, A, and which term of an expression breaks its unit."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Hashable, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import reduce
+from numbers import Rational
+from operator import mul
+from typing import TypeVar
+
+import sympy as sp
+
+from delagrange.derive.notation.symbols import QUANTITIES, Quantity
+
+_BASE = ("kg", "m", "s", "A")
+_Item = TypeVar("_Item", bound=Hashable)
+
+
+@dataclass(frozen=True)
+class Dimension:
+    """A product of powers of kg, m, s and A; `Dimension()` is that of a pure number."""
+
+    kg: Fraction = Fraction(0)
+    m: Fraction = Fraction(0)
+    s: Fraction = Fraction(0)
+    A: Fraction = Fraction(0)
+
+    @classmethod
+    def of_unit(cls, unit: str) -> Dimension:
+        """The dimension of a unit such as "kg/m^3", "Pa s", "1/s^2" or "1".
+
+        Factors are separated by spaces; one "/" may precede the last factor.
+
+        Raises:
+            ValueError: the unit is not written so, or has a name that is not known.
+        """
+        above, slash, below = unit.partition("/")
+        divisors = below.split()
+        if not above.split() or len(divisors) != len(slash):
+            raise ValueError(f"unit {unit!r} is not understood: one '/' is allowed, before the last factor")
+        numerator = reduce(mul, (_unit_factor(factor, unit) for factor in above.split()))
+        return numerator / _unit_factor(divisors[0], unit) if divisors else numerator
+
+    @property
+    def exponents(self) -> tuple[Fraction, Fraction, Fraction, Fraction]:
+        """Exponents of kg, m, s, A."""
+        return (self.kg, self.m, self.s, self.A)
+
+    @property
+    def is_number(self) -> bool:
+        """Whether it is the dimension of a pure number."""
+        return not any(self.exponents)
+
+    def __mul__(self, other: Dimension) -> Dimension:
+        return Dimension(*(a + b for a, b in zip(self.exponents, other.exponents)))
+
+    def __truediv__(self, other: Dimension) -> Dimension:
+        return Dimension(*(a - b for a, b in zip(self.exponents, other.exponents)))
+
+    def __pow__(self, power: int | Rational) -> Dimension:
+        exact = Fraction(int(power.numerator), int(power.denominator))
+        return Dimension(*(a * exact for a in self.exponents))
+
+    def __str__(self) -> str:
+        powers = [_power_text(name, n) for name, n in zip(_BASE, self.exponents) if n]
+        return " ".join(powers) or "1"
+
+
+class DimensionError(ValueError):
+    """Terms that do not have one dimension, or a function or exponent that is not a pure number.
+
+    Attributes:
+        terms: what breaks the unit.
+    """
+
+    def __init__(self, message: str, terms: tuple[object, ...]) -> None:
+        super().__init__(message)
+        self.terms = terms
+
+
+@dataclass(frozen=True)
+class TermDimension:
+    """A term of a sum, its dimension, and whether that is the one most terms of the sum have."""
+
+    term: sp.Expr
+    dimension: Dimension
+    ok: bool
+
+
+_UNITS: Mapping[str, Dimension] = {
+    "1": Dimension(),
+    "kg": Dimension(kg=Fraction(1)),
+    "m": Dimension(m=Fraction(1)),
+    "s": Dimension(s=Fraction(1)),
+    "A": Dimension(A=Fraction(1)),
+    "Hz": Dimension(s=Fraction(-1)),
+    "N": Dimension(Fraction(1), Fraction(1), Fraction(-2)),
+    "Pa": Dimension(Fraction(1), Fraction(-1), Fraction(-2)),
+    "J": Dimension(Fraction(1), Fraction(2), Fraction(-2)),
+    "W": Dimension(Fraction(1), Fraction(2), Fraction(-3)),
+    "C": Dimension(s=Fraction(1), A=Fraction(1)),
+    "V": Dimension(Fraction(1), Fraction(2), Fraction(-3), Fraction(-1)),
+    "F": Dimension(Fraction(-1), Fraction(-2), Fraction(4), Fraction(2)),
+    "S": Dimension(Fraction(-1), Fraction(-2), Fraction(3), Fraction(2)),
+}
+
+
+def _unit_factor(factor: str, unit: str) -> Dimension:
+    name, caret, power = factor.partition("^")
+    if name not in _UNITS:
+        raise ValueError(f"unit {unit!r} is not understood: {name!r} is none of {', '.join(_UNITS)}")
+    digits = power.removeprefix("-")
+    if caret and not (digits.isascii() and digits.isdigit()):
+        raise ValueError(f"unit {unit!r} is not understood: the exponent {power!r} is not an integer")
+    return _UNITS[name] ** (int(power) if caret else 1)
+
+
+def _power_text(name: str, power: Fraction) -> str:
+    if power == 1:
+        return name
+    return f"{name}^{power}" if power.denominator == 1 else f"{name}^({power})"
+
+
+def symbol_dimensions(quantities: tuple[Quantity, ...] = QUANTITIES) -> dict[sp.Symbol, Dimension]:
+    """The dimension of every symbol of a table of quantities, that of the paper where none is given."""
+    return {quantity.symbol: Dimension.of_unit(quantity.unit) for quantity in quantities}
+
+
+def most_common(items: Sequence[_Item]) -> _Item:
+    """What occurs most often; of those that occur equally often, what comes first."""
+    return Counter(items).most_common(1)[0][0]
+
+
+def check_terms(expression: sp.Expr, dimensions: Mapping[sp.Symbol, Dimension]) -> tuple[TermDimension, ...]:
+    """The top-level terms of an expression, each with its dimension.
+
+    Raises:
+        DimensionError: inside a term, a sum, an exponent or the argument of a function is at fault.
+        ValueError: a symbol has no entry in `dimensions`, or a construct has no rule.
+    """
+    terms = sp.Add.make_args(sp.sympify(expression))
+    found = [dimension_of(term, dimensions) for term in terms]
+    expected = most_common(found)
+    return tuple(TermDimension(term, each, each == expected) for term, each in zip(terms, found))
+
+
+def dimension_of(expression: sp.Expr, dimensions: Mapping[sp.Symbol, Dimension]) -> Dimension:
+    """The dimension of an expression.
+
+    Raises:
+        DimensionError: terms of a sum differ, or an exponent or the argument of a function such as
+            log is not a pure number.
+        ValueError: a symbol has no entry in `dimensions`, or a construct has no rule.
+    """
+    if isinstance(expression, sp.Symbol):
+        return _of_symbol(expression, dimensions)
+    if expression.is_number:
+        return Dimension()
+    if isinstance(expression, sp.Add):
+        return _of_sum(expression, dimensions)
+    if isinstance(expression, sp.Mul):
+        return reduce(mul, (dimension_of(factor, dimensions) for factor in expression.args))
+    if isinstance(expression, sp.Pow):
+        return _of_power(expression, dimensions)
+    if isinstance(expression, sp.Function):
+        return _of_function(expression, dimensions)
+    raise ValueError(f"{expression} has no dimension: {type(expression).__name__} has no rule")
+
+
+def _of_symbol(symbol: sp.Symbol, dimensions: Mapping[sp.Symbol, Dimension]) -> Dimension:
+    if symbol not in dimensions:
+        raise ValueError(f"symbol {symbol} has no dimension: it is not in the symbol table")
+    return dimensions[symbol]
+
+
+def _of_sum(expression: sp.Add, dimensions: Mapping[sp.Symbol, Dimension]) -> Dimension:
+    checked = check_terms(expression, dimensions)
+    odd = [each for each in checked if not each.ok]
+    expected = next(each.dimension for each in checked if each.ok)
+    if odd:
+        named = "; ".join(f"{each.term} has dimension {each.dimension}" for each in odd)
+        raise DimensionError(f"{named}; the other terms have {expected}", tuple(each.term for each in odd))
+    return expected
+
+
+def _of_power(expression: sp.Pow, dimensions: Mapping[sp.Symbol, Dimension]) -> Dimension:
+    base, exponent = expression.args
+    _require_number(exponent, expression, dimensions)
+    of_base = dimension_of(base, dimensions)
+    if of_base.is_number:
+        return of_base
+    if not exponent.is_Rational:
+        message = f"{base} has dimension {of_base} and the exponent {exponent}; allowed is a rational number"
+        raise DimensionError(message, (expression,))
+    return of_base ** Fraction(int(exponent.p), int(exponent.q))
+
+
+def _of_function(expression: sp.Function, dimensions: Mapping[sp.Symbol, Dimension]) -> Dimension:
+    for argument in expression.args:
+        _require_number(argument, expression, dimensions)
+    return Dimension()
+
+
+def _require_number(part: sp.Expr, whole: sp.Expr, dimensions: Mapping[sp.Symbol, Dimension]) -> None:
+    found = dimension_of(part, dimensions)
+    if not found.is_number:
+        raise DimensionError(f"{part} in {whole} has dimension {found}; allowed is a pure number", (part,))

@@ -1,0 +1,84 @@
+"""What becomes of the dashpots: frozen where they stand, relaxed, or evolving with the motion.
+
+A dashpot of infinite viscosity does not flow. That is how it is frozen, so that every integrator and every
+derived equation runs as it is. The charge of a membrane that leaks is part of the state behind the inelastic
+stretches, and no dashpot.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from types import ModuleType
+
+import numpy as np
+
+from delagrange.common import checks
+from delagrange.drives.inputs import CHARGE
+from delagrange.problem.initial import (
+    checked_initial,
+    initial_units,
+    state_at_start,
+)
+from delagrange.problem.problem import Problem
+
+FROZEN, RELAXED, EVOLVING = "frozen", "relaxed", "evolving"
+
+
+def frozen(problem: Problem) -> Problem:
+    """The problem with every dashpot frozen."""
+    parameters = tuple(
+        np.inf if entry.name.startswith("viscosity") else value
+        for entry, value in zip(problem.model.PARAMETERS, problem.parameters)
+    )
+    return replace(problem, parameters=parameters)
+
+
+def is_damped(problem: Problem) -> bool:
+    """Whether something damps that no frozen dashpot stops: a dashpot in parallel, or the medium.
+
+    At rest inertia has no slope by the rates, so that what is there is damping.
+    """
+    reference = np.array(problem.model.reference_state(problem.parameters), dtype=float)
+    slopes = problem.jacobian(0.0, reference)[rate_places(problem.model), rate_places(problem.model)]
+    return bool(np.any(slopes != 0))
+
+
+def dashpot_count(model: ModuleType) -> int:
+    """How many dashpots the model has, each of which may flow along several axes."""
+    return sum(entry.name.startswith("viscosity") for entry in model.PARAMETERS)
+
+
+def coordinate_places(model: ModuleType) -> slice:
+    """Where the coordinates stand in the state."""
+    return slice(0, model.COORDINATE_COUNT)
+
+
+def rate_places(model: ModuleType) -> slice:
+    """Where the rates of the coordinates stand in the state."""
+    return slice(model.COORDINATE_COUNT, 2 * model.COORDINATE_COUNT)
+
+
+def dashpot_places(model: ModuleType) -> slice:
+    """Where the inelastic stretches of the dashpots stand in the state."""
+    charge = charge_place(model)
+    return slice(2 * model.COORDINATE_COUNT, len(model.STATE) if charge is None else charge)
+
+
+def charge_place(model: ModuleType) -> int | None:
+    """Where the nominal charge density stands in the state, last of all; None where no charge is part of it."""
+    names = [entry.name for entry in model.STATE]
+    return names.index(CHARGE) if CHARGE in names else None
+
+
+def given_state(problem: Problem, initial_state: Mapping[str, float] | None) -> np.ndarray:
+    """The reference state, (n_state,), with the values that `initial_state` gives by name.
+
+    Raises:
+        ValueError: an unknown name, a value that is not a single finite number, a stretch that is not positive.
+    """
+    model = problem.model
+    units = initial_units(model)
+    given = checked_initial(model, initial_state)
+    values = {name: checks.scalar(name, value, units[name]) for name, value in given.items()}
+    return state_at_start(model, np.array(model.reference_state(problem.parameters), dtype=float), values)
