@@ -146,7 +146,7 @@ def _derived_and_swept(folder: Path, runs: int):
     from delagrange.derive.emit.write_together import write_together
     from delagrange.derive.model_file.describe import describe
     from delagrange.derive.model_file.file import read_model_file
-    from delagrange.derive.user_model import derive_description
+    from delagrange.derive.pipeline import derive_description
 
     description = describe(read_model_file(ROOT / "tests" / "models" / "gent_three_branches.toml"))
     write_together(derive_description(description), folder)

@@ -79,7 +79,7 @@ def _points(contestants: dict[str, Contestant], reference: np.ndarray) -> dict[s
 
 
 def _ours(model: str, engine: str) -> Tangent:
-    from delagrange.engines.flow import Path, typical_sizes
+    from delagrange.engines.flow import FlowPath, typical_sizes
     from delagrange.engines.flows import resolve_flow
     from delagrange.problem.dashpots import given_state
 
@@ -89,7 +89,7 @@ def _ours(model: str, engine: str) -> Tangent:
     columns = np.diag(weights)[:, :moving]
 
     def tangent(tolerance: float) -> np.ndarray:
-        travel = flow(Path(problem, weights, tolerance), state, np.array([0.0, _stop()]), columns)
+        travel = flow(FlowPath(problem, weights, tolerance), state, np.array([0.0, _stop()]), columns)
         return (travel.tangent / weights[:, None])[:moving]
 
     return tangent

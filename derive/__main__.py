@@ -15,7 +15,7 @@ from pathlib import Path
 from delagrange.derive import pipeline
 from delagrange.derive.check import record
 from delagrange.derive.check.report import as_text, summary
-from delagrange.derive.pipeline import Walked
+from delagrange.derive.pipeline import Derivation
 
 
 def _options(arguments: list[str] | None) -> argparse.Namespace:
@@ -63,7 +63,7 @@ def _run(options: argparse.Namespace) -> int:
     return 0
 
 
-def _checked(walked: Walked, departed: tuple[str, ...], folder: Path) -> int:
+def _checked(walked: Derivation, departed: tuple[str, ...], folder: Path) -> int:
     """Name each verdict and each file that is not as it should be."""
     old, other = pipeline.stale(walked.modules, folder), pipeline.surplus(walked.modules, folder)
     _complain_of(departed)
@@ -74,7 +74,7 @@ def _checked(walked: Walked, departed: tuple[str, ...], folder: Path) -> int:
     return 1 if departed or old or other else 0
 
 
-def _record(walked: Walked, departed: tuple[str, ...]) -> None:
+def _record(walked: Derivation, departed: tuple[str, ...]) -> None:
     """Make the verdicts found the recorded ones, and say what that changes."""
     path = record.record_path()
     pipeline.write(((path.name, record.to_json(walked.verdicts)),), path.parent)

@@ -16,7 +16,7 @@ from delagrange.derive.emit.write_together import write_together
 from delagrange.derive.membrane.description import Description
 from delagrange.derive.model_file.describe import describe
 from delagrange.derive.model_file.file import read_model_file
-from delagrange.derive.user_model import derive_description
+from delagrange.derive.pipeline import derive_description
 from delagrange.figures.style import journal_style, save
 
 HERE = Path(__file__).parent

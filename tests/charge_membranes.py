@@ -12,7 +12,7 @@ from delagrange.derive.membrane.description import RELATION, Load, Relation
 from delagrange.derive.model_file.describe import describe
 from delagrange.derive.model_file.file import read_model_file
 from delagrange.derive.notation.symbols import TimeDependent, moving, quantity
-from delagrange.derive.user_model import derive_description, description_spec
+from delagrange.derive.pipeline import derive_description, description_spec
 
 MU, EPSILON, DENSITY = 6.0e4, 6.198e-11, 1.2e3  # [Pa], [F/m], [kg/m^3]
 LENGTH, THICKNESS = 5e-3, 1e-3  # half of both [m]

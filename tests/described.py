@@ -11,9 +11,9 @@ from delagrange.derive.emit.numpy_module import emit
 from delagrange.derive.kernel.spec import KernelSpec
 from delagrange.derive.membrane.description import (
     Body,
-    Branch,
     Description,
     Load,
+    MaxwellBranch,
     Permittivity,
     Relation,
     numbered,
@@ -22,7 +22,7 @@ from delagrange.derive.membrane.materials import ALPHA, MATERIALS, branch
 from delagrange.derive.notation import more_symbols as m
 from delagrange.derive.notation import symbols as s
 from delagrange.derive.notation.symbols import Quantity, quantity
-from delagrange.derive.user_model import description_spec
+from delagrange.derive.pipeline import description_spec
 
 VALUES = {
     "half_length": 0.1, "half_length_1": 0.1, "half_length_2": 0.06, "half_thickness": 5e-4, "density": 1.2e3,
@@ -50,11 +50,11 @@ def value_of(name: str, unit: str) -> float:
     return KINDS[kind] * (1 + 0.3 * number)
 
 
-def branches(*materials: str) -> tuple[Branch, ...]:
+def branches(*materials: str) -> tuple[MaxwellBranch, ...]:
     """A Maxwell branch of each material."""
     springs = [branch(number, of=len(materials)) for number in range(1, len(materials) + 1)]
     return tuple(
-        Branch(MATERIALS[name](spring), _viscosity(spring.number))
+        MaxwellBranch(MATERIALS[name](spring), _viscosity(spring.number))
         for name, spring in zip(materials, springs, strict=True)
     )
 

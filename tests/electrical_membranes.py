@@ -16,10 +16,10 @@ from delagrange.derive.membrane.description import (
     RELATION,
     UNIAXIAL,
     VOLTAGE,
-    Branch,
     Description,
     Dielectric,
     Load,
+    MaxwellBranch,
     Permittivity,
     Relation,
     constant_permittivity,
@@ -28,7 +28,7 @@ from delagrange.derive.membrane.materials import ALPHA, MATERIALS, branch
 from delagrange.derive.notation import more_symbols as m
 from delagrange.derive.notation import symbols as s
 from delagrange.derive.notation.symbols import Quantity, quantity
-from delagrange.derive.user_model import description_spec
+from delagrange.derive.pipeline import description_spec
 
 ELECTROSTRICTION = quantity("b", "electrostriction", "b", "b", "1", "of the permittivity", positive=False)
 SOFTENING = Permittivity(
@@ -88,7 +88,7 @@ def described(
         "A membrane",
         Load(kind, relation=CURVED if kind == RELATION else None),
         MATERIALS["Gent"](ALPHA),
-        (Branch(MATERIALS["neo-Hookean"](branch(1, of=1)), s.VISCOSITY),),
+        (MaxwellBranch(MATERIALS["neo-Hookean"](branch(1, of=1)), s.VISCOSITY),),
         dielectric=Dielectric(PERMITTIVITIES[permittivity], control, leakage or conductivity),
         parallel_viscosity=m.PARALLEL_VISCOSITY,
     )

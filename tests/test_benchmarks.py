@@ -39,10 +39,10 @@ from benchmarks.timing import Timed, interleaved
 from benchmarks.vector_width import NOT_FULL, arithmetic, failures, summary
 from benchmarks.work_precision import measure, prepared
 from delagrange.engines.tableau import tableau
-from delagrange.reproduction.runs.cases import Load, Panel
+from delagrange.reproduction.runs.cases import CurveLoad, Panel
 
 THREE_RUNS = Case(
-    "three", "equal_biaxial", (Panel("a", "force", (Load(0.5, 5e6),)),), np.array([185.0, 371.0, 742.0]), 0.02
+    "three", "equal_biaxial", (Panel("a", "force", (CurveLoad(0.5, 5e6),)),), np.array([185.0, 371.0, 742.0]), 0.02
 )
 
 

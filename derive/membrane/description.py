@@ -1,7 +1,7 @@
 """What a membrane is, as a person describes it: the pieces that the derivation starts from.
 
 A description holds no equation of motion and no load-specific symbol of the paper. Energies and quantities
-are given whole; `derive.user_model.derive_description` walks the road from here to emitted modules.
+are given whole; `derive.pipeline.derive_description` walks the road from here to emitted modules.
 
 Names of quantities: a membrane with one Maxwell branch has `shear_modulus_beta`, `viscosity`,
 `inelastic_stretch_1`; with several, the number of the branch follows the name of a parameter
@@ -42,7 +42,7 @@ class Body:
 
 
 @dataclass(frozen=True)
-class Branch:
+class MaxwellBranch:
     """A Maxwell branch: a spring in series with a Newtonian dashpot."""
 
     energy: StrainEnergy
@@ -117,7 +117,7 @@ class Description:
     title: str
     load: Load
     equilibrium_spring: StrainEnergy
-    branches: tuple[Branch, ...] = ()
+    branches: tuple[MaxwellBranch, ...] = ()
     body: Body = field(default_factory=Body)
     dielectric: Dielectric = field(default_factory=Dielectric)
     parallel_viscosity: Quantity | None = None  # of a Kelvin-Voigt dashpot beside all springs [Pa s]

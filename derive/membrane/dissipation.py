@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from delagrange.derive.membrane.description import Body, Branch
+from delagrange.derive.membrane.description import Body, MaxwellBranch
 from delagrange.derive.membrane.strain_energy import Stretches
 from delagrange.derive.notation import symbols as s
 from delagrange.derive.notation.symbols import Quantity, TimeDependent
@@ -59,7 +59,7 @@ def dashpot_strain_rates(stresses: Stretches, viscosity: Quantity = s.VISCOSITY)
     return first, second, third
 
 
-def dashpot(branch: Branch, stretches: Stretches, internals: tuple[TimeDependent, ...]) -> Dashpot:
+def dashpot(branch: MaxwellBranch, stretches: Stretches, internals: tuple[TimeDependent, ...]) -> Dashpot:
     """The dashpot of a branch whose inelastic stretches are `internals`."""
     stresses = branch.energy.cauchy_stresses(elastic_stretches(stretches, internals))
     strain_rates = dashpot_strain_rates(stresses, branch.viscosity)

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from types import MappingProxyType
 
 from delagrange.common.checks import choice
-from delagrange.derive.membrane.description import Branch, numbered
+from delagrange.derive.membrane.description import MaxwellBranch, numbered
 from delagrange.derive.membrane.materials import ALPHA, MATERIALS, Spring, branch
 from delagrange.derive.membrane.strain_energy import StrainEnergy
 from delagrange.derive.notation import symbols as s
@@ -83,10 +83,10 @@ class MaterialSet:
         """The energy of the equilibrium spring."""
         return self.equilibrium_spring.energy(ALPHA)
 
-    def maxwell_branches(self) -> tuple[Branch, ...]:
+    def maxwell_branches(self) -> tuple[MaxwellBranch, ...]:
         """The branches with the quantities of a description, in the order in which they are published."""
         return tuple(
-            Branch(each.spring.energy(branch(number, len(self.branches))), self._viscosity(number))
+            MaxwellBranch(each.spring.energy(branch(number, len(self.branches))), self._viscosity(number))
             for number, each in enumerate(self.branches, 1)
         )
 

@@ -84,7 +84,7 @@ class ParameterKind:
 
 
 @dataclass(frozen=True)
-class Material:
+class MaterialForm:
     """A strain energy by name. Called with a spring, it gives that spring's energy."""
 
     name: str
@@ -160,22 +160,22 @@ _LOCKING_STRETCH = ParameterKind(
     "locking_stretch", "lambda_m", "λ_m", r"\lambda_{m}", "1", "stretch of a chain at its full length,"
 )
 
-MATERIALS: Mapping[str, Material] = MappingProxyType(
+MATERIALS: Mapping[str, MaterialForm] = MappingProxyType(
     {
         material.name: material
         for material in (
-            Material("neo-Hookean", neo_hookean, (_SHEAR_MODULUS,)),
-            Material("Mooney-Rivlin", mooney_rivlin, (_SHEAR_MODULUS, _SECOND_MODULUS)),
-            Material("Yeoh", yeoh, tuple(_yeoh_coefficient(power) for power in (1, 2, 3))),
-            Material("Ogden", _ogden_of, kinds_of_term=_ogden_term),
-            Material("Gent", gent, (_SHEAR_MODULUS, _LOCKING)),
-            Material("Arruda-Boyce", arruda_boyce, (_CHAIN_MODULUS, _LOCKING_STRETCH)),
+            MaterialForm("neo-Hookean", neo_hookean, (_SHEAR_MODULUS,)),
+            MaterialForm("Mooney-Rivlin", mooney_rivlin, (_SHEAR_MODULUS, _SECOND_MODULUS)),
+            MaterialForm("Yeoh", yeoh, tuple(_yeoh_coefficient(power) for power in (1, 2, 3))),
+            MaterialForm("Ogden", _ogden_of, kinds_of_term=_ogden_term),
+            MaterialForm("Gent", gent, (_SHEAR_MODULUS, _LOCKING)),
+            MaterialForm("Arruda-Boyce", arruda_boyce, (_CHAIN_MODULUS, _LOCKING_STRETCH)),
         )
     }
 )
 
 
-def material(name: str) -> Material:
+def material(name: str) -> MaterialForm:
     """The material of a name; capitals, spaces, hyphens and underscores make no difference.
 
     Raises:

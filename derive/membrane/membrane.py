@@ -17,9 +17,9 @@ from delagrange.derive.membrane.description import (
     EQUAL_BIAXIAL,
     Attachment,
     Body,
-    Branch,
     Description,
     Load,
+    MaxwellBranch,
 )
 from delagrange.derive.membrane.dissipation import (
     Dashpot,
@@ -177,7 +177,7 @@ def edge_spring_energy(attachments: tuple[Attachment, ...], body: Body) -> sp.Ex
 
 def membrane(spring_alpha: StrainEnergy, spring_beta: StrainEnergy) -> Membrane:
     """The square membrane of the paper from the strain energies of its two springs."""
-    branch = Branch(spring_beta, s.VISCOSITY)
+    branch = MaxwellBranch(spring_beta, s.VISCOSITY)
     return described_membrane(Description("membrane", "", Load(EQUAL_BIAXIAL), spring_alpha, (branch,)))
 
 

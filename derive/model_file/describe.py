@@ -12,10 +12,10 @@ import sympy as sp
 from delagrange.derive.membrane.description import (
     Attachment,
     Body,
-    Branch,
     Description,
     Dielectric,
     Load,
+    MaxwellBranch,
     Permittivity,
     Relation,
     constant_permittivity,
@@ -67,8 +67,8 @@ def _branch_springs(model: ModelFile) -> tuple[Spring, ...]:
     return tuple(branch(number, of=count) for number in range(1, count + 1))
 
 
-def _branch(entry: BranchEntry, spring: Spring) -> Branch:
-    return Branch(energy_of(entry.spring, spring), _viscosity(spring))
+def _branch(entry: BranchEntry, spring: Spring) -> MaxwellBranch:
+    return MaxwellBranch(energy_of(entry.spring, spring), _viscosity(spring))
 
 
 def _viscosity(spring: Spring) -> Quantity:

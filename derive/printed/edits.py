@@ -21,9 +21,9 @@ from delagrange.derive.printed.tree import (
     Function,
     Group,
     Node,
+    NodePath,
     Number,
     Part,
-    Path,
     Power,
     Product,
     Quotient,
@@ -83,7 +83,7 @@ def single_edits(equation: Equation, *, wide: bool = False) -> Iterator[Edit]:
     )
 
 
-def _edit(equation: Equation, kind: EditKind, path: Path, new: Part, context: Path | None = None) -> Edit:
+def _edit(equation: Equation, kind: EditKind, path: NodePath, new: Part, context: NodePath | None = None) -> Edit:
     """Replace what stands at `path`, and show the change in the part at `context`."""
     edited = replace_at(equation, path, new)
     shown = path if context is None else context
@@ -94,7 +94,7 @@ def _edit(equation: Equation, kind: EditKind, path: Path, new: Part, context: Pa
 # Where edits can be made
 
 
-def _outside_exponents(part: Part, path: Path = ()) -> Iterator[tuple[Path, Part]]:
+def _outside_exponents(part: Part, path: NodePath = ()) -> Iterator[tuple[NodePath, Part]]:
     """Every part with its path, but for what stands in an exponent."""
     yield path, part
     inner = children(part)[:1] if isinstance(part, Power) else children(part)
@@ -102,7 +102,7 @@ def _outside_exponents(part: Part, path: Path = ()) -> Iterator[tuple[Path, Part
         yield from _outside_exponents(child, (*path, index))
 
 
-def _slots(equation: Equation) -> Iterator[tuple[Path, Node]]:
+def _slots(equation: Equation) -> Iterator[tuple[NodePath, Node]]:
     """Every place that can hold a sum: sides, insides of brackets and roots, parts of fractions."""
     for path, part in _outside_exponents(equation):
         is_root = isinstance(part, Function) and part.name == "sqrt"
@@ -110,7 +110,7 @@ def _slots(equation: Equation) -> Iterator[tuple[Path, Node]]:
             yield from (((*path, index), child) for index, child in enumerate(children(part)))
 
 
-def _additive(equation: Equation) -> Iterator[tuple[Path, Node, tuple[Term, ...]]]:
+def _additive(equation: Equation) -> Iterator[tuple[NodePath, Node, tuple[Term, ...]]]:
     """The slots that are sums, and the sides even where they are one term; a printed 0 is no term."""
     for path, node in _slots(equation):
         if isinstance(node, Sum) or (len(path) == 1 and not _is_zero(node)):
@@ -148,7 +148,7 @@ def _other_coefficients(value: Fraction, wide: bool) -> tuple[Fraction, ...]:
     return _distinct((*near, *far) if wide else near, but=(value, Fraction(0)))
 
 
-def _surroundings(equation: Equation, path: Path) -> Path:
+def _surroundings(equation: Equation, path: NodePath) -> NodePath:
     """The path of the nearest fraction or term around a place, else of the side."""
     for end in range(len(path), 1, -1):
         if isinstance(part_at(equation, path[:end]), Quotient | Term):
@@ -163,7 +163,7 @@ def _prints_coefficient(node: Node) -> bool:
 
 
 def _inserted_coefficients(
-    equation: Equation, path: Path, node: Node, index: int, wide: bool
+    equation: Equation, path: NodePath, node: Node, index: int, wide: bool
 ) -> Iterator[Edit]:
     place = (*path, index, 0) if isinstance(node, Sum) else path  # 0: from the term to its node
     bare = part_at(equation, place)

@@ -115,7 +115,7 @@ class Equation:
 
 
 Part: TypeAlias = Node | Term | Equation
-Path: TypeAlias = tuple[int, ...]
+NodePath: TypeAlias = tuple[int, ...]
 
 
 @dataclass(frozen=True)
@@ -187,21 +187,21 @@ def with_child(part: Part, index: int, child: Part) -> Part:
     return replace(part, **{_CHILDREN[type(part)][index]: child})
 
 
-def walk(part: Part, path: Path = ()) -> Iterator[tuple[Path, Part]]:
+def walk(part: Part, path: NodePath = ()) -> Iterator[tuple[NodePath, Part]]:
     """Every part of a tree with its path from the root, a parent before its children."""
     yield path, part
     for index, child in enumerate(children(part)):
         yield from walk(child, (*path, index))
 
 
-def part_at(root: Part, path: Path) -> Part:
+def part_at(root: Part, path: NodePath) -> Part:
     """The part of the tree at a path."""
     for index in path:
         root = children(root)[index]
     return root
 
 
-def replace_at(root: Part, path: Path, new: Part) -> Part:
+def replace_at(root: Part, path: NodePath, new: Part) -> Part:
     """The tree with the part at a path replaced."""
     if not path:
         return new

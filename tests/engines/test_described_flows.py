@@ -13,8 +13,8 @@ import delagrange as dl
 from delagrange.analysis.steady.shooting import Shooting
 from delagrange.derive.model_file.describe import describe
 from delagrange.derive.model_file.file import read_model_file
-from delagrange.derive.user_model import derive_description
-from delagrange.engines.flow import Path, typical_sizes
+from delagrange.derive.pipeline import derive_description
+from delagrange.engines.flow import FlowPath, typical_sizes
 from delagrange.engines.flow_compiled import flow_compiled
 from delagrange.engines.flow_scipy import flow_by_scipy
 from delagrange.equilibrium.continuation import Lost
@@ -44,9 +44,9 @@ def leaky(tmp_path_factory):
     return dl.load(folder / "leaky.py")
 
 
-def path_of(model, load, tolerance=1e-11, **material) -> Path:
+def path_of(model, load, tolerance=1e-11, **material) -> FlowPath:
     problem = make_problem(model, dl.SHENG_2015, material, None, load["force"], load["field"])
-    return Path(problem, typical_sizes(problem), tolerance)
+    return FlowPath(problem, typical_sizes(problem), tolerance)
 
 
 # --- springs that lock ---------------------------------------------------------------------------
@@ -166,7 +166,7 @@ def test_a_charge_is_as_exact_as_the_stretches(leaky, follow):
     sizes, times = typical_sizes(problem), np.linspace(0.0, 1.05e-3, 7)
     start = np.asarray(leaky.reference_state(problem.parameters), dtype=float)
     loose, exact = (
-        follow(Path(problem, sizes, tolerance), start, times).state for tolerance in (1e-6, 1e-12)
+        follow(FlowPath(problem, sizes, tolerance), start, times).state for tolerance in (1e-6, 1e-12)
     )
     assert 1e-4 < np.max(np.abs(exact[:, -1])) < 2e-3
     assert np.all(np.max(np.abs(loose - exact), axis=0) < 2e-6 * sizes)

@@ -13,7 +13,7 @@ from scipy.optimize import minimize_scalar
 
 import delagrange as dl
 from delagrange.engines.interpolation import evaluate, first_crossing, largest_value
-from delagrange.engines.lanes import Sampling, Settings
+from delagrange.engines.lanes import RunSettings, Sampling
 from delagrange.engines.numpy_engine import integrate_lanes
 from delagrange.engines.step_control import Ode45Control, ScipyControl, step_control
 from delagrange.engines.tableau import tableau
@@ -37,7 +37,7 @@ def _run(model, force, field, duration=0.01, rtol=1e-10, atol=1e-13, **options):
     sampling = None
     if interval is not None:
         sampling = Sampling(np.zeros(lanes), np.full(lanes, interval), int(duration / interval))
-    chosen = Settings(tableau(name), control, duration, **(defaults | options))
+    chosen = RunSettings(tableau(name), control, duration, **(defaults | options))
     return integrate_lanes(problem, state, chosen, sampling)
 
 
@@ -220,7 +220,7 @@ def test_a_lane_lost_at_the_start_has_its_status_there():
     module = dl.load_model("equal_biaxial")
     problem = make_problem(module, dl.SHENG_2015, {}, None, np.array([0.1, 0.1]), dl.Constant(0.0))
     state = np.array([[3.0, 1.0], [0.0, 0.0], [1.0, 1.0]])
-    chosen = Settings(
+    chosen = RunSettings(
         tableau("DOP853"), ScipyControl(1e-8, 1e-11), 0.01, (0.0, 0.01), dl.Limits(0.01, 2.0), "dense"
     )
     outcome = integrate_lanes(problem, state, chosen)
@@ -234,7 +234,7 @@ def test_a_breakpoint_of_one_lane_is_met_by_all():
     problem = make_problem(
         dl.load_model("equal_biaxial"), dl.SHENG_2015, {}, None, dl.Step(np.full(3, 0.5), time=times), 2e6
     )
-    chosen = Settings(tableau("DOP853"), ScipyControl(1e-11, 1e-14), 0.01, (0.0, 0.01), dl.Limits(), "dense")
+    chosen = RunSettings(tableau("DOP853"), ScipyControl(1e-11, 1e-14), 0.01, (0.0, 0.01), dl.Limits(), "dense")
     outcome = integrate_lanes(problem, np.repeat([[1.0], [0.0], [1.0]], 3, axis=1), chosen)
     for lane, time in enumerate(times):
         run = dl.simulate(

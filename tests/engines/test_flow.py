@@ -26,7 +26,7 @@ from delagrange.engines.flow import (
     BIAS,
     FREQUENCY,
     PHASE,
-    Path,
+    FlowPath,
     Source,
     drive_numbers,
     drive_slope,
@@ -53,7 +53,7 @@ def problem_of(name, flowing=False, force=0.3, field=FIELD, held_stretch=2.0):
 
 def path_of(name, flowing=False, tolerance=1e-12, **drives):
     problem = problem_of(name, flowing, **drives)
-    return Path(problem, typical_sizes(problem), tolerance)
+    return FlowPath(problem, typical_sizes(problem), tolerance)
 
 
 def start_of(path, **values):
@@ -305,7 +305,7 @@ def exact_swing(drive, start, end):
 def test_the_phase_is_kept_after_many_periods(integral, start):
     """Half a million seconds are 2.7e8 periods: their product with the frequency, rounded, is off by 2e-7 rad."""
     drive = dl.Sine(1.0, 801.0 / 0.997, phase=0.3)
-    path = Path(Problem(integral, (drive,), ()), np.array([1e-4]), 1e-13)
+    path = FlowPath(Problem(integral, (drive,), ()), np.array([1e-4]), 1e-13)
     times = start + np.array([0.0, 0.25, 0.7, 2.0]) / drive.frequency
     sources = (Source(0, AMPLITUDE), Source(0, PHASE), Source(0, FREQUENCY))
     travel = flow_compiled(path, np.zeros(1), times, np.zeros((1, 3)), sources)
@@ -349,7 +349,7 @@ def test_a_drive_of_another_kind_is_refused():
 def test_the_lorenz_system_goes_through_the_same_code(tmp_path, monkeypatch):
     monkeypatch.syspath_prepend(str(tmp_path))
     module = written(lorenz(), tmp_path)
-    path = Path(Problem(module, (), (10.0, 28.0, 8 / 3)), np.full(3, 10.0), 1e-12)
+    path = FlowPath(Problem(module, (), (10.0, 28.0, 8 / 3)), np.full(3, 10.0), 1e-12)
     assert resolve_flow(path.problem) is flow_compiled
     start, times = np.ones(3), np.linspace(0.0, 3.0, 31)
     ours, theirs = (
@@ -484,7 +484,7 @@ def test_a_module_without_a_kernel_goes_by_scipy(recwarn):
         ValueError, match="no variational kernel stands beside the module of the model equal_bi"
     ):
         resolve_flow(problem, "compiled")
-    path = Path(problem, np.ones(3))
+    path = FlowPath(problem, np.ones(3))
     with pytest.raises(RuntimeError, match="the model equal_biaxial has no variational kernel"):
         flow_compiled(path, start_of(path), np.array([0.0, 1e-3]))
 

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 import delagrange as dl
-from delagrange.engines.flow import AMPLITUDE, BIAS, Path, Source, typical_sizes
+from delagrange.engines.flow import AMPLITUDE, BIAS, FlowPath, Source, typical_sizes
 from delagrange.engines.flows import resolve_flow
 from delagrange.problem.dashpots import frozen, given_state
 from delagrange.problem.problem import make_problem
@@ -55,7 +55,7 @@ def test_the_tangent_is_that_of_heyoka(name, flowing):
     problem = problem if flowing else frozen(problem)
     state = given_state(problem, None)
     size = len(state)
-    path = Path(problem, typical_sizes(problem), 1e-13)
+    path = FlowPath(problem, typical_sizes(problem), 1e-13)
     sources = (*[None] * size, Source(0, BIAS), Source(1, AMPLITUDE))
     columns = np.hstack([np.eye(size), np.zeros((size, 2))])
     travel = resolve_flow(problem)(path, state, np.array([0.0, DURATION]), columns, sources)

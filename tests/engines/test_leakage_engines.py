@@ -11,8 +11,8 @@ import delagrange as dl
 from delagrange.cli import main
 from delagrange.derive.model_file.describe import describe
 from delagrange.derive.model_file.file import read_model_file
-from delagrange.derive.user_model import derive_description
-from delagrange.engines.flow import Path
+from delagrange.derive.pipeline import derive_description
+from delagrange.engines.flow import FlowPath
 from delagrange.engines.flow_compiled import flow_compiled
 from delagrange.engines.flow_scipy import flow_by_scipy
 from delagrange.problem.dashpots import frozen
@@ -118,7 +118,7 @@ def test_a_sweep_of_the_current_by_command(leaky, tmp_path, capsys):
 def test_tangents_of_the_variational_kernel_are_those_of_scipy(leaky):
     drives = {CURRENT: dl.Sine(0.05, 200.0)}
     problem = frozen(make_problem(leaky, dl.SHENG_2015, {}, None, 0.1, 0.0, drives))
-    path = Path(problem, np.array([1.0, 5e3, 1.0, 1e-3]), 1e-11)
+    path = FlowPath(problem, np.array([1.0, 5e3, 1.0, 1e-3]), 1e-11)
     times = np.linspace(0.0, 0.01, 5)
     given_ = (path, np.array([1.0, 0.0, 1.0, 1e-4]), times, np.eye(4))
     ours, theirs = flow_compiled(*given_), flow_by_scipy(*given_)

@@ -8,10 +8,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from delagrange.equilibrium.continuation import (
+    ContinuationSettings,
     Evaluation,
     Lost,
     Point,
-    Settings,
     continue_branch,
     locate,
     solve,
@@ -56,7 +56,8 @@ def root(x: np.ndarray) -> Evaluation:
 
 
 def test_a_circle_closes_on_itself():
-    branch = continue_branch(circle, np.array([1.0, 0.1]), +1, ONES, Settings(largest_step=0.05), everywhere)
+    settings = ContinuationSettings(largest_step=0.05)
+    branch = continue_branch(circle, np.array([1.0, 0.1]), +1, ONES, settings, everywhere)
     points = np.array([point.x for point in branch.points])
     assert branch.ending == "closed on itself"
     assert np.array_equal(points[0], points[-1])
@@ -69,7 +70,7 @@ def test_a_circle_closes_on_itself():
 def test_the_direction_is_the_sign_of_the_change_of_the_parameter():
     for direction in (+1, -1):
         branch = continue_branch(
-            circle, np.array([1.0, 0.1]), direction, ONES, Settings(most_points=3), everywhere
+            circle, np.array([1.0, 0.1]), direction, ONES, ContinuationSettings(most_points=3), everywhere
         )
         assert np.sign(branch.points[1].x[1] - branch.points[0].x[1]) == direction
         assert branch.ending == "3 points"
@@ -77,7 +78,7 @@ def test_the_direction_is_the_sign_of_the_change_of_the_parameter():
 
 def test_tangents_are_unit_vectors_along_the_branch():
     scale = np.array([2.0, 0.5])
-    branch = continue_branch(circle, np.array([1.0, 0.1]), +1, scale, Settings(most_points=40), everywhere)
+    branch = continue_branch(circle, np.array([1.0, 0.1]), +1, scale, ContinuationSettings(most_points=40), everywhere)
     for point in branch.points:
         assert np.linalg.norm(point.tangent) == pytest.approx(1.0, abs=1e-14)
         assert point.x @ (scale * point.tangent) == pytest.approx(0.0, abs=4e-12)  # of the last correction
@@ -92,8 +93,9 @@ def folds(branch) -> list[tuple[Point, Point]]:
 
 
 def test_both_folds_of_a_cubic_are_located_to_round_off():
+    settings = ContinuationSettings()
     branch = continue_branch(
-        cubic, np.array([-2.5, -8.125]), +1, ONES, Settings(), lambda x: "far enough" if x[0] > 2.5 else None
+        cubic, np.array([-2.5, -8.125]), +1, ONES, settings, lambda x: "far enough" if x[0] > 2.5 else None
     )
     assert branch.ending == "far enough"
     assert branch.points[-1].x[0] < 2.5 < branch.beyond.x[0]
@@ -102,20 +104,20 @@ def test_both_folds_of_a_cubic_are_located_to_round_off():
 
 
 def test_locate_finds_where_any_test_vanishes():
-    branch = continue_branch(cubic, np.array([2.0, 2.0]), +1, ONES, Settings(most_points=30), everywhere)
+    branch = continue_branch(cubic, np.array([2.0, 2.0]), +1, ONES, ContinuationSettings(most_points=30), everywhere)
     point = locate(cubic, branch.points[0], branch.points[-1], lambda point: point.x[1] - 2.25, ONES, 1e-13)
     assert point.x[1] == pytest.approx(2.25, abs=1e-13)
     assert point.x[0] ** 3 - 3 * point.x[0] == pytest.approx(2.25, abs=1e-12)
 
 
 def test_locate_refuses_a_test_of_one_sign():
-    branch = continue_branch(cubic, np.array([2.0, 2.0]), +1, ONES, Settings(most_points=3), everywhere)
+    branch = continue_branch(cubic, np.array([2.0, 2.0]), +1, ONES, ContinuationSettings(most_points=3), everywhere)
     with pytest.raises(ValueError, match=r"two signs.*parameter 2 and"):
         locate(cubic, branch.points[0], branch.points[-1], lambda point: 1.0, ONES, 1e-13)
 
 
 def test_a_lost_branch_says_where_and_keeps_what_it_has():
-    branch = continue_branch(root, np.array([1.0, 1.0]), -1, ONES, Settings(smallest_step=1e-5), everywhere)
+    branch = continue_branch(root, np.array([1.0, 1.0]), -1, ONES, ContinuationSettings(smallest_step=1e-5), everywhere)
     assert branch.ending.startswith("lost: ")
     assert "near parameter" in branch.ending
     assert len(branch.points) > 10
@@ -124,20 +126,20 @@ def test_a_lost_branch_says_where_and_keeps_what_it_has():
 
 
 def test_a_start_that_is_no_solution_is_a_branch_without_points():
-    branch = continue_branch(root, np.array([1.0, -1.0]), +1, ONES, Settings(), everywhere)
+    branch = continue_branch(root, np.array([1.0, -1.0]), +1, ONES, ContinuationSettings(), everywhere)
     assert branch.points == ()
     assert branch.ending == "lost: no square root of a negative number near parameter -1"
 
 
 def test_a_start_outside_is_a_branch_without_points():
-    branch = continue_branch(circle, np.array([1.0, 0.1]), +1, ONES, Settings(), lambda x: "left the range")
+    branch = continue_branch(circle, np.array([1.0, 0.1]), +1, ONES, ContinuationSettings(), lambda x: "left the range")
     assert (branch.points, branch.ending) == ((), "left the range")
     assert branch.beyond.x[1] == 0.1
 
 
 def test_a_sharp_corner_is_passed_with_small_steps():
     width = 1e-4
-    settings = Settings(first_step=0.05)
+    settings = ContinuationSettings(first_step=0.05)
     branch = continue_branch(
         near_cusp(width), np.array([-1.0, 1.0]), -1, ONES, settings, lambda x: "far" if x[0] > 1 else None
     )
@@ -150,7 +152,7 @@ def test_a_sharp_corner_is_passed_with_small_steps():
 
 
 def test_a_corner_sharper_than_the_smallest_step_ends_the_branch():
-    settings = Settings(smallest_step=1e-3)
+    settings = ContinuationSettings(smallest_step=1e-3)
     branch = continue_branch(near_cusp(1e-7), np.array([-1.0, 1.0]), -1, ONES, settings, everywhere)
     assert branch.ending.startswith("lost: ")
     assert -0.01 < branch.points[-1].x[0] < 0
@@ -180,7 +182,7 @@ def test_units_do_not_matter(stretch, size):
         z = x / scale
         return Evaluation(np.array([z @ z - 1.0]), 2 * (z / scale)[None, :])
 
-    settings = Settings(most_points=20)
+    settings = ContinuationSettings(most_points=20)
     plain = continue_branch(circle, np.array([1.0, 0.1]), +1, ONES, settings, everywhere)
     scaled = continue_branch(ellipse, scale * [1.0, 0.1], +1, scale, settings, everywhere)
     np.testing.assert_allclose(

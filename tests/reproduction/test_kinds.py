@@ -14,11 +14,11 @@ from delagrange.reproduction.claims.kind_claims import (
     sections_fill_an_area,
 )
 from delagrange.reproduction.runs.all_runs import Runs
-from delagrange.reproduction.runs.cases import MOTIONS, Load, MotionFigures
+from delagrange.reproduction.runs.cases import MOTIONS, CurveLoad, MotionFigures
 from delagrange.reproduction.runs.kinds import kind, kinds
 from delagrange.reproduction.runs.runs import KINDS
 
-SLOW_BEAT = MotionFigures(11, 12, "pure_shear", Load(0.1, 3e6, 2.0), (190.0, 381.0, 762.0), 0.12)
+SLOW_BEAT = MotionFigures(11, 12, "pure_shear", CurveLoad(0.1, 3e6, 2.0), (190.0, 381.0, 762.0), 0.12)
 
 
 def found(*verdicts: str, dimension: float) -> xr.Dataset:

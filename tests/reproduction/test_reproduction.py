@@ -29,7 +29,7 @@ from delagrange.reproduction.claims.statements import (
 )  # fmt: skip
 from delagrange.reproduction.runs import processes
 from delagrange.reproduction.runs.all_runs import Runs
-from delagrange.reproduction.runs.cases import RESPONSES, Load
+from delagrange.reproduction.runs.cases import RESPONSES, CurveLoad
 from delagrange.reproduction.runs.numerics import PAPER_LIKE
 from delagrange.reproduction.runs.processes import side_by_side
 from delagrange.reproduction.runs.published_numbers import PEAKS
@@ -85,7 +85,7 @@ def test_spectral_lines_are_found_where_they_are():
 # --- numbers ------------------------------------------------------------------------------------------
 
 
-def _response(amplitudes: dict[Load, list[float]], figure: int = 10) -> xr.Dataset:
+def _response(amplitudes: dict[CurveLoad, list[float]], figure: int = 10) -> xr.Dataset:
     loads = list(amplitudes)
     coordinates = {
         "force": ("load", [load.force for load in loads]),
@@ -99,7 +99,7 @@ def _response(amplitudes: dict[Load, list[float]], figure: int = 10) -> xr.Datas
 
 
 def test_the_peak_is_sought_among_points_that_were_not_lost():
-    load = Load(0.1, 3e6, 2.0)
+    load = CurveLoad(0.1, 3e6, 2.0)
     found = found_peak(_response({load: [0.2, np.nan, 0.4]}), load)
     assert found == Found(310.0, 0.4, 5.0, 1)
 
@@ -129,7 +129,7 @@ def test_every_printed_peak_belongs_to_a_curve():
 
 
 def test_the_stated_error_is_measured_against_another_integrator():
-    figure, load = RESPONSES[0], Load(0.2, 1e6)
+    figure, load = RESPONSES[0], CurveLoad(0.2, 1e6)
     right = amplitude_error(figure, None, load, Found(431.0, 0.052898056291867945, 1.0, 0))
     wrong = amplitude_error(figure, None, load, Found(431.0, 0.0530, 1.0, 0))
     assert right < 1e-8
@@ -145,7 +145,7 @@ def _runs(as_printed: xr.Dataset, consistent: xr.Dataset) -> Runs:
 
 def _panel_b(peaks: list[list[float]]) -> xr.Dataset:
     return _response(
-        {Load(0.1, field, 2.0): values for field, values in zip((3e6, 4e6, 5e6), peaks, strict=True)}
+        {CurveLoad(0.1, field, 2.0): values for field, values in zip((3e6, 4e6, 5e6), peaks, strict=True)}
     )
 
 

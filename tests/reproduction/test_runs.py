@@ -12,7 +12,7 @@ import xarray as xr
 import delagrange as dl
 from delagrange.reproduction.runs import processes, store
 from delagrange.reproduction.runs.all_runs import Runs, all_runs, run_all
-from delagrange.reproduction.runs.cases import MOTIONS, RESPONSES, Load
+from delagrange.reproduction.runs.cases import MOTIONS, RESPONSES, CurveLoad
 from delagrange.reproduction.runs.published_numbers import PEAKS
 from delagrange.reproduction.runs.runs import (
     ACCURATE,
@@ -52,7 +52,7 @@ def test_the_papers_numerics_gives_the_printed_peaks(near_the_peaks, peak):
 def test_the_accurate_numerics_does_not(near_the_peaks):
     printed = {peak.load: peak.amplitude for peak in PEAKS if peak.figure == 4}
     computed = {load: float(curve(near_the_peaks["accurate"], load)["amplitude"].max()) for load in printed}
-    assert computed[Load(0.8, 1e6)] < 0.92 * printed[Load(0.8, 1e6)]
+    assert computed[CurveLoad(0.8, 1e6)] < 0.92 * printed[CurveLoad(0.8, 1e6)]
 
 
 @pytest.mark.parametrize("numerics", [ACCURATE, PAPER_LIKE], ids=lambda numerics: numerics.name)
@@ -104,8 +104,8 @@ def test_a_response_says_what_it_is():
 
 def test_an_unknown_load_is_refused():
     computed = response(SHORT, PAPER_LIKE, frequency=np.array([371.0]))
-    with pytest.raises(ValueError, match=r"Fig\. 4 has no curve of Load\(force=9.0"):
-        curve(computed, Load(9.0, 1e6))
+    with pytest.raises(ValueError, match=r"Fig\. 4 has no curve of CurveLoad\(force=9.0"):
+        curve(computed, CurveLoad(9.0, 1e6))
 
 
 @pytest.mark.parametrize("case", MOTIONS, ids=lambda case: case.model)

@@ -25,7 +25,7 @@ from scipy.integrate import solve_ivp
 
 import delagrange as dl
 from delagrange.cli import main
-from delagrange.engines.flow import AMPLITUDE, FREQUENCY, Path, Source, typical_sizes
+from delagrange.engines.flow import AMPLITUDE, FREQUENCY, FlowPath, Source, typical_sizes
 from delagrange.engines.flow_scipy import flow_by_scipy
 from delagrange.engines.flows import resolve_flow
 from delagrange.figures.equilibrium_figure import draw_equilibria
@@ -241,7 +241,7 @@ def loaded(model: ModuleType, drive: object = 0.0) -> Problem:
 def test_tangents_are_those_of_the_flow_by_scipy(damped):
     """Of the state and of two numbers of the charge, with branches and medium that damp."""
     problem = loaded(damped, dl.Sine(0.7 * TYPICAL, 310.0, 0.2 * TYPICAL))
-    path = Path(problem, typical_sizes(problem), 1e-12)
+    path = FlowPath(problem, typical_sizes(problem), 1e-12)
     times, start = np.array([0.0, 1e-3, 6e-3]), np.array([1.05, 20.0, 1.02, 0.99])
     place = len(damped.INPUTS) - 1
     tangent = np.column_stack([np.diag(path.weights), np.zeros((4, 2))])

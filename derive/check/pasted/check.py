@@ -20,6 +20,7 @@ from delagrange.derive.check.pasted.symbols import ModelSymbols, SymbolEntry, en
 from delagrange.derive.check.verdict import Verdict
 from delagrange.derive.check.verify import symbols_of, verdict_on
 from delagrange.derive.equations.derived_equations import DerivedEquation, derived_equations
+from delagrange.derive.equations.described import description_equations
 from delagrange.derive.equations.euler_lagrange import EquationsOfMotion
 from delagrange.derive.membrane.description import Description
 from delagrange.derive.notation.symbols import Quantity
@@ -27,7 +28,6 @@ from delagrange.derive.printed.latex import read_equation
 from delagrange.derive.printed.symbol_table import label_at
 from delagrange.derive.printed.tokens import LatexError, Source, tokenize
 from delagrange.derive.printed.tree import Equation, Variable, walk
-from delagrange.derive.user_model import description_equations
 
 # What an equation may state, in the order in which it is asked: an energy is one whatever else stands in it
 _KINDS = (

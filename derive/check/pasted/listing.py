@@ -9,9 +9,9 @@ import sympy as sp
 from delagrange.derive.check.pasted.latex import LatexPrinter
 from delagrange.derive.check.pasted.symbols import symbols_of_model
 from delagrange.derive.equations.derived_equations import DerivedEquation, derived_equations
+from delagrange.derive.equations.described import quantities_of
 from delagrange.derive.equations.euler_lagrange import EquationsOfMotion
 from delagrange.derive.notation.symbols import Quantity
-from delagrange.derive.user_model import quantities_of
 
 
 @dataclass(frozen=True)

@@ -23,11 +23,11 @@ from delagrange.common.checks import did_you_mean
 from delagrange.common.units import shown
 from delagrange.derive.check.pasted.abbreviation import Abbreviation, read_abbreviation
 from delagrange.derive.check.pasted.bounds import check_symbol_length
+from delagrange.derive.equations.described import quantities_of
 from delagrange.derive.equations.euler_lagrange import EquationsOfMotion
 from delagrange.derive.notation.symbols import Quantity, TimeDependent
 from delagrange.derive.printed.symbol_table import GREEK, Name, SymbolTable, name_of
 from delagrange.derive.printed.tokens import LatexError
-from delagrange.derive.user_model import quantities_of
 
 _VARIANTS = MappingProxyType({r"\varepsilon": r"\epsilon", r"\epsilon": r"\varepsilon"})
 _UNREADABLE = "p"  # the letter of a parameter whose name is a word: p_{stiffness}

@@ -17,7 +17,7 @@ from delagrange.cli.verify import Details, as_recorded
 from delagrange.common.files import check_folder, prepare_folder
 
 if TYPE_CHECKING:
-    from delagrange.derive.pipeline import Walked
+    from delagrange.derive.pipeline import Derivation
 
 ModuleFolder = Annotated[
     Path | None,
@@ -87,7 +87,7 @@ def derive(
         raise typer.Exit(1)
 
 
-def _stale(walked: Walked, folder: Path) -> bool:
+def _stale(walked: Derivation, folder: Path) -> bool:
     """Whether a module in the folder is not what the derivation emits; it is named on standard error."""
     from delagrange.derive import pipeline
 
@@ -101,7 +101,7 @@ def _stale(walked: Walked, folder: Path) -> bool:
     return bool(old or extra)
 
 
-def _write(walked: Walked, folder: Path, departed: bool) -> None:
+def _write(walked: Derivation, folder: Path, departed: bool) -> None:
     """Write the modules, unless their equations are not those that were last looked at."""
     from delagrange.derive import pipeline
 

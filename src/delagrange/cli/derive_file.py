@@ -38,7 +38,7 @@ def _derived(path: Path) -> tuple[tuple[str, str], ...]:
     """File name and text of each module of the membrane."""
     from delagrange.derive.model_file.describe import describe
     from delagrange.derive.model_file.file import read_model_file
-    from delagrange.derive.user_model import derive_description
+    from delagrange.derive.pipeline import derive_description
 
     description = describe(read_model_file(path))
     try:

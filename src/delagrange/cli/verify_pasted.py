@@ -71,9 +71,9 @@ def _equations_of(
 
 
 def _described(path: Path) -> EquationsOfMotion:
+    from delagrange.derive.equations.described import description_equations
     from delagrange.derive.model_file.describe import describe
     from delagrange.derive.model_file.file import read_model_file
-    from delagrange.derive.user_model import description_equations
 
     description = describe(read_model_file(path))
     try:

@@ -17,7 +17,7 @@ from delagrange.drives.inputs import (
     named_inputs,
 )
 
-ELECTRODES = (ELECTRIC_FIELD, CHARGE_DENSITY, CURRENT_DENSITY)
+ELECTRICAL_INPUTS = (ELECTRIC_FIELD, CHARGE_DENSITY, CURRENT_DENSITY)
 
 
 def phase_name(electrical: ElectricalInput) -> str:
@@ -61,7 +61,7 @@ def driven_sine(
     Raises:
         ValueError: a number of another sine, other than zero, or no amplitude of this one.
     """
-    own = next((each for each in ELECTRODES if has_input(model, each.name)), ELECTRIC_FIELD)
+    own = next((each for each in ELECTRICAL_INPUTS if has_input(model, each.name)), ELECTRIC_FIELD)
     _refuse_foreign(model, own, given)
     if own is not ELECTRIC_FIELD and not any(map(_acts, given[own])):
         without = given[ELECTRIC_FIELD][0] is not None and given[own][0] is None

@@ -9,14 +9,14 @@ from __future__ import annotations
 import numpy as np
 
 from delagrange.engines.interpolation import evaluate, trial_polynomial
-from delagrange.engines.lanes import Settings, Trial
+from delagrange.engines.lanes import RunSettings, Trial
 from delagrange.problem.problem import Problem
 
 _POINTS = 8  # of Gauss and Legendre: exact to degree 15, and the square of the interpolant has at most 14
 _NODES, _WEIGHTS = ((np.polynomial.legendre.leggauss(_POINTS) + np.array([[1.0], [0.0]])) / 2).tolist()
 
 
-def widen_integrals(problem: Problem, trial: Trial, settings: Settings) -> np.ndarray:
+def widen_integrals(problem: Problem, trial: Trial, settings: RunSettings) -> np.ndarray:
     """The lanes' integrals with the trial's step taken in, (1 + 2 n_coordinates, n_lanes) [s].
 
     Rejected lanes keep theirs; of a step in which a lane is lost the part before the loss counts.

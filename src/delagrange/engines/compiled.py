@@ -15,7 +15,7 @@ from types import ModuleType
 import numpy as np
 
 from delagrange.engines.kernel_drives import piece_rows
-from delagrange.engines.lanes import Interrupted, Outcome, Sampling, Settings, empty_outcome
+from delagrange.engines.lanes import Interrupted, Outcome, RunSettings, Sampling, empty_outcome
 from delagrange.engines.locking import name_failures
 from delagrange.engines.numpy_engine import Report, segments
 from delagrange.model.kernels import kernel_name, load_kernel
@@ -52,7 +52,7 @@ class Call:
 def integrate_compiled(
     problem: Problem,
     initial_state: np.ndarray,
-    settings: Settings,
+    settings: RunSettings,
     sampling: Sampling | None = None,
     report: Report | None = None,
 ) -> Outcome:
@@ -94,7 +94,7 @@ def _call(
     kernel: ModuleType,
     problem: Problem,
     initial_state: np.ndarray,
-    settings: Settings,
+    settings: RunSettings,
     sampling: Sampling | None,
     spans: list[tuple[float, float]],
 ) -> Call:
@@ -116,7 +116,7 @@ def _call(
     )
 
 
-def _numerics(settings: Settings) -> np.ndarray:
+def _numerics(settings: RunSettings) -> np.ndarray:
     control, limits = settings.control, settings.limits
     return np.array(
         [control.rtol, control.atol, limits.smallest_stretch, limits.largest_stretch, settings.duration]

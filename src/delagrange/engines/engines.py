@@ -71,12 +71,12 @@ def resolve_numerics(
     if control == "ode45" and method != "RK45":
         raise ValueError(f"step_control 'ode45' belongs to method 'RK45', got method {method!r}")
     engine = resolve_engine(engine, method, control, extrema, model, drives)
-    able = ENGINES[engine]
-    control = able.step_controls[0] if control is None else control
-    if not _suits(able, method, control, extrema):
+    chosen = ENGINES[engine]
+    control = chosen.step_controls[0] if control is None else control
+    if not _suits(chosen, method, control, extrema):
         raise ValueError(
-            f"engine {engine!r} has method {_quoted(able.methods)}, step_control "
-            f"{_quoted(able.step_controls)} and extrema {_quoted(able.extrema)} only, "
+            f"engine {engine!r} has method {_quoted(chosen.methods)}, step_control "
+            f"{_quoted(chosen.step_controls)} and extrema {_quoted(chosen.extrema)} only, "
             f"got {method!r}, {control!r}, {extrema!r}"
         )
     return Numerics(method, engine, control, extrema)
@@ -107,9 +107,9 @@ def resolve_engine(
     return "numpy"
 
 
-def _suits(able: Engine, method: str, control: str | None, extrema: str) -> bool:
+def _suits(chosen: Engine, method: str, control: str | None, extrema: str) -> bool:
     """Whether an engine has the numerics; its own step control where None."""
-    return method in able.methods and control in (None, *able.step_controls) and extrema in able.extrema
+    return method in chosen.methods and control in (None, *chosen.step_controls) and extrema in chosen.extrema
 
 
 def _obstacle(model: ModuleType, drives: Sequence[object]) -> str | None:

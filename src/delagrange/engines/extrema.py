@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from delagrange.engines.interpolation import evaluate, largest_value, trial_polynomial
-from delagrange.engines.lanes import Settings, Trial
+from delagrange.engines.lanes import RunSettings, Trial
 from delagrange.problem.problem import Problem
 
 EXTREMA = ("dense", "samples", "steps")
@@ -17,7 +17,7 @@ _QUARTERS = np.array([0.25, 0.5, 0.75])
 _BEND_MARGIN = 1.5  # the largest second derivative may lie between the stages
 
 
-def widen(problem: Problem, trial: Trial, settings: Settings) -> tuple[np.ndarray, np.ndarray]:
+def widen(problem: Problem, trial: Trial, settings: RunSettings) -> tuple[np.ndarray, np.ndarray]:
     """Maximum and minimum of each coordinate with the trial's step taken in, each (n_coordinates, n_lanes).
 
     Rejected lanes keep theirs.
@@ -36,7 +36,7 @@ def widen(problem: Problem, trial: Trial, settings: Settings) -> tuple[np.ndarra
 
 
 def _widen_by_samples(
-    problem: Problem, trial: Trial, settings: Settings, maximum: np.ndarray, minimum: np.ndarray
+    problem: Problem, trial: Trial, settings: RunSettings, maximum: np.ndarray, minimum: np.ndarray
 ) -> None:
     """Take in the values at the quarters of the accepted steps, into `maximum` and `minimum`."""
     places = np.flatnonzero(trial.accepted)
@@ -50,7 +50,7 @@ def _widen_by_samples(
 
 
 def _widen_by_peaks(
-    problem: Problem, trial: Trial, settings: Settings, maximum: np.ndarray, minimum: np.ndarray
+    problem: Problem, trial: Trial, settings: RunSettings, maximum: np.ndarray, minimum: np.ndarray
 ) -> None:
     """Take in the extrema inside the steps that may hold one, into `maximum` and `minimum`."""
     rising, falling = _candidates(trial, maximum, minimum)

@@ -46,7 +46,7 @@ class Travel:
 
 
 @dataclass(frozen=True)
-class Path:
+class FlowPath:
     """One run with the accuracy it is wanted with.
 
     `weights`, (n_state,), are typical sizes of the state variables, each in its unit: errors are measured
@@ -64,7 +64,7 @@ class Flow(Protocol):
 
     def __call__(
         self,
-        path: Path,
+        path: FlowPath,
         state: np.ndarray,
         times: np.ndarray,
         tangent: np.ndarray | None = None,
@@ -100,7 +100,7 @@ Start = tuple[np.ndarray, np.ndarray, np.ndarray, tuple[Source | None, ...]]
 
 
 def checked_start(
-    path: Path,
+    path: FlowPath,
     state: np.ndarray,
     times: np.ndarray,
     tangent: np.ndarray | None,

@@ -7,7 +7,7 @@ from types import ModuleType
 
 import numpy as np
 
-from delagrange.engines.flow import Path, Source, Travel, checked_start, drive_numbers
+from delagrange.engines.flow import FlowPath, Source, Travel, checked_start, drive_numbers
 from delagrange.model.kernels import VARIATIONAL, kernel_name, load_kernel
 from delagrange.problem.problem import Problem
 from delagrange.problem.status import DIVERGED
@@ -40,7 +40,7 @@ class _Call:
 
 
 def flow_compiled(
-    path: Path,
+    path: FlowPath,
     state: np.ndarray,
     times: np.ndarray,
     tangent: np.ndarray | None = None,
@@ -67,7 +67,7 @@ def flow_compiled(
 
 def _call(
     kernel: ModuleType,
-    path: Path,
+    path: FlowPath,
     state: np.ndarray,
     times: np.ndarray,
     tangent: np.ndarray,
@@ -92,7 +92,7 @@ def _call(
     )
 
 
-def _frame(kernel: ModuleType, path: Path, columns: int) -> np.ndarray:
+def _frame(kernel: ModuleType, path: FlowPath, columns: int) -> np.ndarray:
     """Everything that stands still, and the numbers that are to change as they are at first."""
     problem = path.problem
     frame = np.zeros(kernel.COLUMN + 2 * columns)
@@ -114,7 +114,7 @@ def _place(frame: np.ndarray, start: int, values: np.ndarray | list[float]) -> N
     frame[start : start + len(values)] = values
 
 
-def _travel(path: Path, call: _Call) -> Travel:
+def _travel(path: FlowPath, call: _Call) -> Travel:
     frame, size = call.frame, call.states.shape[1]
     return Travel(
         state=call.states,

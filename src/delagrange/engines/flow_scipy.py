@@ -12,7 +12,7 @@ from scipy.integrate import DOP853
 from scipy.optimize import brentq
 
 from delagrange.engines.flow import (
-    Path,
+    FlowPath,
     Source,
     Travel,
     checked_start,
@@ -27,7 +27,7 @@ from delagrange.problem import status as loss
 class _Extended:
     """Right-hand side of the state, its tangent and the integral of the divergence, in one vector."""
 
-    path: Path
+    path: FlowPath
     numbers: np.ndarray
     sources: tuple[Source | None, ...]
     shape: tuple[int, int]
@@ -71,7 +71,7 @@ class _Leg:
 
 
 def flow_by_scipy(
-    path: Path,
+    path: FlowPath,
     state: np.ndarray,
     times: np.ndarray,
     tangent: np.ndarray | None = None,
@@ -139,7 +139,7 @@ def orthonormalised(tangent: np.ndarray, weights: np.ndarray) -> tuple[np.ndarra
 
 
 def _absolute(
-    path: Path, state: np.ndarray, tangent: np.ndarray, rates: _Extended, span: tuple[float, float]
+    path: FlowPath, state: np.ndarray, tangent: np.ndarray, rates: _Extended, span: tuple[float, float]
 ) -> np.ndarray:
     """Absolute tolerances of the extended vector; a column that follows a drive may begin at zero."""
     lengths = np.linalg.norm(tangent / path.weights[:, None], axis=0)
@@ -148,7 +148,7 @@ def _absolute(
     return path.tolerance * np.maximum(np.concatenate(parts), 1e-300)
 
 
-def _kept(path: Path, solver: DOP853) -> tuple[float, int]:
+def _kept(path: FlowPath, solver: DOP853) -> tuple[float, int]:
     """Until when the step just made counts [s], and what ends it there if anything does."""
     size, dense = len(path.weights), None
 

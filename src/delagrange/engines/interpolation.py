@@ -10,7 +10,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from delagrange.engines.lanes import Settings, Trial
+from delagrange.engines.lanes import RunSettings, Trial
 from delagrange.engines.step_control import combine
 from delagrange.engines.tableau import Tableau
 from delagrange.problem.problem import Problem
@@ -44,7 +44,7 @@ def step_polynomial(
 
 
 def trial_polynomial(
-    problem: Problem, trial: Trial, settings: Settings, places: np.ndarray, count: int | None = None
+    problem: Problem, trial: Trial, settings: RunSettings, places: np.ndarray, count: int | None = None
 ) -> np.ndarray:
     """The state over the trial's step of the lanes at `places`, (degree + 1, n_state, n_places).
 

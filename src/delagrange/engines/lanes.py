@@ -12,7 +12,7 @@ from delagrange.problem.status import Limits
 
 
 @dataclass(frozen=True)
-class Settings:
+class RunSettings:
     """How to integrate and what to measure."""
 
     tableau: Tableau | None  # None for an engine that carries its own

@@ -20,8 +20,8 @@ from delagrange.engines.lanes import (
     Interrupted,
     Lanes,
     Outcome,
+    RunSettings,
     Sampling,
-    Settings,
     Trial,
     empty_outcome,
     first_lanes,
@@ -38,7 +38,7 @@ Report = Callable[[float], None]  # told how many runs' worth of time has been i
 def integrate_lanes(
     problem: Problem,
     initial_state: np.ndarray,
-    settings: Settings,
+    settings: RunSettings,
     sampling: Sampling | None = None,
     report: Report | None = None,
 ) -> Outcome:
@@ -61,7 +61,7 @@ def _integrate_into(
     outcome: Outcome,
     problem: Problem,
     initial_state: np.ndarray,
-    settings: Settings,
+    settings: RunSettings,
     sampling: Sampling | None,
     report: Report | None,
 ) -> None:
@@ -75,7 +75,7 @@ def _integrate_into(
         lanes = _run_segment(problem, lanes, measured, span, outcome, sampling, report)
 
 
-def _without_lost_at_start(problem: Problem, lanes: Lanes, settings: Settings, outcome: Outcome) -> Lanes:
+def _without_lost_at_start(problem: Problem, lanes: Lanes, settings: RunSettings, outcome: Outcome) -> Lanes:
     """A lane is lost before it moves where its initial or held stretch is beyond the limits."""
     lost = ~(problem.margin(lanes.time, lanes.state, settings.limits) > 0)
     lost = np.broadcast_to(lost, lanes.index.shape)
@@ -84,7 +84,7 @@ def _without_lost_at_start(problem: Problem, lanes: Lanes, settings: Settings, o
     return lanes.take(np.flatnonzero(~lost))
 
 
-def segments(problem: Problem, settings: Settings) -> Iterator[tuple[float, float]]:
+def segments(problem: Problem, settings: RunSettings) -> Iterator[tuple[float, float]]:
     """Spans [s] in which the drives are smooth and which lie inside the window or outside of it."""
     times = {0.0, settings.duration, *settings.window, *problem.breakpoints(0.0, settings.duration)}
     bounds = sorted(times)
@@ -94,7 +94,7 @@ def segments(problem: Problem, settings: Settings) -> Iterator[tuple[float, floa
 def _run_segment(
     problem: Problem,
     lanes: Lanes,
-    settings: Settings,
+    settings: RunSettings,
     span: tuple[float, float],
     outcome: Outcome,
     sampling: Sampling | None,
@@ -129,7 +129,7 @@ def _runs_done(outcome: Outcome, groups: tuple[Lanes, ...], duration: float) -> 
     return ended + sum(float(np.sum(time)) for time in going) / duration
 
 
-def _at_start(problem: Problem, lanes: Lanes, settings: Settings, stop: float) -> Lanes:
+def _at_start(problem: Problem, lanes: Lanes, settings: RunSettings, stop: float) -> Lanes:
     """The lanes with the rate and first step of a new segment, and its first values measured."""
     rate = np.array(problem.rhs(lanes.time, lanes.state))
     step = settings.control.first_step(problem, settings.tableau, lanes.time, lanes.state, rate, stop)
@@ -142,7 +142,7 @@ def _at_start(problem: Problem, lanes: Lanes, settings: Settings, stop: float) -
     )
 
 
-def _try_step(problem: Problem, lanes: Lanes, settings: Settings, stop: float, buffer: np.ndarray) -> Trial:
+def _try_step(problem: Problem, lanes: Lanes, settings: RunSettings, stop: float, buffer: np.ndarray) -> Trial:
     tableau, control = settings.tableau, settings.control
     step, end = control.bounded(lanes.step, lanes.time, stop)
     shape = (tableau.stage_count + 1, *lanes.state.shape)
@@ -163,7 +163,7 @@ def _judge(
     problem: Problem,
     trial: Trial,
     stop: float,
-    settings: Settings,
+    settings: RunSettings,
     outcome: Outcome,
     sampling: Sampling | None,
 ) -> tuple[Lanes, np.ndarray]:
@@ -192,7 +192,7 @@ def _judge(
     return lanes, beyond | stuck
 
 
-def _cut_at_loss(problem: Problem, trial: Trial, settings: Settings, places: np.ndarray) -> Trial:
+def _cut_at_loss(problem: Problem, trial: Trial, settings: RunSettings, places: np.ndarray) -> Trial:
     """The trial with the steps of the lost lanes, at `places`, ending where the limit is passed."""
     lost, some = trial.take(places), problem.take(places)
     before = lost.before

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from delagrange.engines.interpolation import evaluate, trial_polynomial
-from delagrange.engines.lanes import Outcome, Sampling, Settings, Trial
+from delagrange.engines.lanes import Outcome, RunSettings, Sampling, Trial
 from delagrange.problem.problem import Problem
 
 
@@ -16,7 +16,7 @@ def keep_start(outcome: Outcome, sampling: Sampling, state: np.ndarray) -> None:
 
 
 def keep_step(
-    outcome: Outcome, sampling: Sampling, problem: Problem, trial: Trial, settings: Settings
+    outcome: Outcome, sampling: Sampling, problem: Problem, trial: Trial, settings: RunSettings
 ) -> None:
     """Write the samples that lie in the accepted steps, as far as these count, after their beginning."""
     before = trial.before

@@ -10,7 +10,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from delagrange.engines.lanes import Interrupted, Outcome, Sampling, Settings, empty_outcome
+from delagrange.engines.lanes import Interrupted, Outcome, RunSettings, Sampling, empty_outcome
 from delagrange.engines.numpy_engine import Report, segments
 from delagrange.problem import status as loss
 from delagrange.problem.problem import Problem
@@ -21,7 +21,7 @@ _QUADRATURE_POINTS = 8  # a step: exact for the square of a polynomial of degree
 def integrate_one_by_one(
     problem: Problem,
     initial_state: np.ndarray,
-    settings: Settings,
+    settings: RunSettings,
     sampling: Sampling | None = None,
     report: Report | None = None,
 ) -> Outcome:
@@ -41,7 +41,7 @@ def integrate_one_by_one(
 
 
 def _run_lane(
-    problem: Problem, state: np.ndarray, settings: Settings, times: np.ndarray, outcome: Outcome, lane: int
+    problem: Problem, state: np.ndarray, settings: RunSettings, times: np.ndarray, outcome: Outcome, lane: int
 ) -> None:
     """Run one lane over all segments; `times`, (count,) [s], are those of its samples."""
     outcome.samples[times == 0.0, :, lane] = state
@@ -61,7 +61,7 @@ def _run_lane(
     outcome.state[:, lane], outcome.status[lane], outcome.status_time[lane] = state, status, time
 
 
-def _measure_into(outcome: Outcome, solutions: list, settings: Settings, lane: int) -> None:
+def _measure_into(outcome: Outcome, solutions: list, settings: RunSettings, lane: int) -> None:
     """Write the extrema and the averages over the solutions in the window."""
     count = len(outcome.maximum)
     values = [part for solution in solutions for part in _values(solution, count)]
@@ -93,7 +93,7 @@ def _integrals(solution, count: int) -> np.ndarray:
     return sum(steps, np.zeros((2, count)))
 
 
-def _solve(problem: Problem, state: np.ndarray, start: float, stop: float, settings: Settings, dense: bool):
+def _solve(problem: Problem, state: np.ndarray, start: float, stop: float, settings: RunSettings, dense: bool):
     def lost(time: float, state: np.ndarray) -> float:
         return float(problem.margin(time, state, settings.limits))
 
@@ -114,12 +114,12 @@ def _solve(problem: Problem, state: np.ndarray, start: float, stop: float, setti
     )
 
 
-def _status(problem: Problem, time: float, state: np.ndarray, settings: Settings) -> int:
+def _status(problem: Problem, time: float, state: np.ndarray, settings: RunSettings) -> int:
     kept = problem.margin(time, state, settings.limits) > 0
     return loss.COMPLETED if kept else int(problem.kind_of_loss(time, state, settings.limits))
 
 
-def _status_after(problem: Problem, solution, settings: Settings) -> int:
+def _status_after(problem: Problem, solution, settings: RunSettings) -> int:
     if solution.status == 1:
         return int(problem.kind_of_loss(solution.t[-1], solution.y[:, -1], settings.limits))
     if solution.success:

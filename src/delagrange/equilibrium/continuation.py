@@ -49,7 +49,7 @@ class Point:
 
 
 @dataclass(frozen=True)
-class Branch:
+class SolutionBranch:
     """Points in the order of travel, and why there are no more."""
 
     points: tuple[Point, ...]
@@ -58,7 +58,7 @@ class Branch:
 
 
 @dataclass(frozen=True)
-class Settings:
+class ContinuationSettings:
     """Steps are lengths of arc in scaled variables."""
 
     first_step: float = 0.01
@@ -83,7 +83,7 @@ class _Follower:
 
     residual: Residual
     scale: np.ndarray
-    settings: Settings
+    settings: ContinuationSettings
     inside: Callable[[np.ndarray], str | None] = field(default=lambda x: None)
 
     def distance(self, one: np.ndarray, other: np.ndarray) -> float:
@@ -114,9 +114,9 @@ def continue_branch(
     start: Point | np.ndarray,
     direction: int,
     scale: np.ndarray,
-    settings: Settings,
+    settings: ContinuationSettings,
     inside: Callable[[np.ndarray], str | None],
-) -> Branch:
+) -> SolutionBranch:
     """Follow the branch through `start`, first towards larger (+1) or smaller (-1) values of the parameter.
 
     Args:
@@ -135,9 +135,9 @@ def continue_branch(
         first = _first_point(follower, start, direction)
     except Lost as reason:
         place = start.x[-1] if isinstance(start, Point) else start[-1]
-        return Branch((), _lost(reason, place))
+        return SolutionBranch((), _lost(reason, place))
     outside = inside(first.x)
-    return Branch((), outside, first) if outside else _follow(follower, first)
+    return SolutionBranch((), outside, first) if outside else _follow(follower, first)
 
 
 def locate(
@@ -164,7 +164,7 @@ def locate(
             f"the test must have two signs at the two points, got {first:g} at parameter {before.x[-1]:g} "
             f"and {last:g} at {after.x[-1]:g}"
         )
-    follower = _Follower(residual, np.asarray(scale, dtype=float), Settings(tolerance=tolerance))
+    follower = _Follower(residual, np.asarray(scale, dtype=float), ContinuationSettings(tolerance=tolerance))
     chord = after.x - before.x
     normal = chord / follower.scale
     normal = normal / np.linalg.norm(normal)
@@ -242,21 +242,21 @@ def _first_point(follower: _Follower, start: Point | np.ndarray, direction: int)
     return Point(found.x, along, found.evaluation.payload)
 
 
-def _follow(follower: _Follower, first: Point) -> Branch:
+def _follow(follower: _Follower, first: Point) -> SolutionBranch:
     settings = follower.settings
     points, step = [first], settings.first_step
     while len(points) < settings.most_points:
         try:
             point, step = _next(follower, points[-1], step)
         except Lost as reason:
-            return Branch(tuple(points), _lost(reason, parameter_of(points[-1])))
+            return SolutionBranch(tuple(points), _lost(reason, parameter_of(points[-1])))
         if len(points) > 2 and _passes(follower, points[-1], point, first):
-            return Branch((*points, first), "closed on itself")
+            return SolutionBranch((*points, first), "closed on itself")
         outside = follower.inside(point.x)
         if outside is not None:
-            return Branch(tuple(points), outside, point)
+            return SolutionBranch(tuple(points), outside, point)
         points.append(point)
-    return Branch(tuple(points), f"{settings.most_points} points")
+    return SolutionBranch(tuple(points), f"{settings.most_points} points")
 
 
 def _next(follower: _Follower, point: Point, step: float) -> tuple[Point, float]:

@@ -9,9 +9,9 @@ from itertools import pairwise
 import numpy as np
 
 from delagrange.equilibrium.continuation import (
-    Branch,
     Lost,
     Point,
+    SolutionBranch,
     continue_branch,
     locate,
     parameter_of,
@@ -107,7 +107,7 @@ def locate_on(statics: Statics, piece: Piece, test: Callable[[np.ndarray], float
     ]
 
 
-def _reaching(statics: Statics, branch: Branch, low: float, high: float) -> list[Point]:
+def _reaching(statics: Statics, branch: SolutionBranch, low: float, high: float) -> list[Point]:
     """The points, with the one at the very end of the range of the input where the branch goes beyond it."""
     points = list(branch.points)
     if points and branch.beyond is not None:

@@ -15,7 +15,7 @@ import numpy as np
 from delagrange.common import checks
 from delagrange.drives.inputs import CHARGE_DENSITY, ElectricalInput, electrical_input
 from delagrange.equilibrium.chart import Chart, make_chart
-from delagrange.equilibrium.continuation import Evaluation, Lost, Settings, solve
+from delagrange.equilibrium.continuation import ContinuationSettings, Evaluation, Lost, solve
 from delagrange.model.load import check_offers
 from delagrange.problem import status as loss
 from delagrange.problem.dashpots import (
@@ -35,7 +35,7 @@ NEEDED = ("jacobian", "input_jacobian", "mass_matrix", "edge_forces")
 NEEDED_UNDER_CHARGE = ("potential_energy",)  # which knows how the permittivity depends on the stretches
 TOLERANCE = 1e-11  # of the last Newton correction of the strains; the error is its square, down to round-off
 _LARGEST_STRAIN = 50.0  # of the logarithms on the way; powers of stretches beyond are no numbers
-STEPS = Settings(
+STEPS = ContinuationSettings(
     first_step=0.01, largest_step=0.03, smallest_step=1e-8, most_points=8000, tolerance=TOLERANCE
 )
 

@@ -82,7 +82,7 @@ def _no_collection() -> Iterator[None]:
 def _compile(kernel: ModuleType) -> bool:
     """Compile the kernel by giving it nothing to do; whether the machine code is kept on disk."""
     variational = hasattr(kernel, "travel")
-    use = travel_nowhere if variational else integrate_nothing
+    use = compile_tangents if variational else integrate_nothing
     entry = kernel.travel if variational else kernel.integrate
     try:
         use(kernel)
@@ -111,7 +111,7 @@ def integrate_nothing(kernel: ModuleType) -> None:
     )
 
 
-def travel_nowhere(kernel: ModuleType) -> None:
+def compile_tangents(kernel: ModuleType) -> None:
     """Call the kernel with arrays of the right types and a single time."""
     size, coordinates = kernel.STATE_COUNT, kernel.COORDINATE_COUNT
     frame = np.zeros(kernel.COLUMN)

@@ -12,7 +12,7 @@ import xarray as xr
 from delagrange.common.progress import working
 from delagrange.drives.drive import Drive
 from delagrange.drives.inputs import Inputs
-from delagrange.drives.sines import ELECTRODES, driven_sine, phase_name, sine_long_names, sine_text
+from delagrange.drives.sines import ELECTRICAL_INPUTS, driven_sine, phase_name, sine_long_names, sine_text
 from delagrange.engines.engines import resolve_numerics
 from delagrange.engines.lanes import Outcome
 from delagrange.model.load import load_model
@@ -140,7 +140,7 @@ def frequency_response(
         (charge_amplitude, charge_bias, charge_phase),
         (current_amplitude, current_bias, current_phase),
     )
-    electrical, sine = driven_sine(module, dict(zip(ELECTRODES, sines)), inputs)
+    electrical, sine = driven_sine(module, dict(zip(ELECTRICAL_INPUTS, sines)), inputs)
     values = {"force": force, **sine, "held_stretch": held_stretch, **material, "frequency": frequency}
     with working(progress and is_equilibrium(module, initial_state), "finding where the runs start, at rest"):
         sweep = make_sweep(

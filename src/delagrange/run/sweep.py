@@ -24,10 +24,10 @@ from delagrange.drives.inputs import (
     input_name,
     named_inputs,
 )
-from delagrange.drives.sines import ELECTRODES, phase_name, sine_names
+from delagrange.drives.sines import ELECTRICAL_INPUTS, phase_name, sine_names
 from delagrange.engines import engines
 from delagrange.engines.engines import Engine, Numerics
-from delagrange.engines.lanes import Interrupted, Outcome, Sampling, Settings, empty_outcome
+from delagrange.engines.lanes import Interrupted, Outcome, RunSettings, Sampling, empty_outcome
 from delagrange.engines.step_control import step_control
 from delagrange.engines.tableau import Tableau, tableau
 from delagrange.equilibrium.start import before_the_field, loaded_equilibrium
@@ -50,9 +50,9 @@ from delagrange.run.measures import Measures
 from delagrange.run.sampling import make_sampling
 
 INPUT_UNITS: Mapping[str, str] = {"force": "N"} | {
-    name: each.unit for each in ELECTRODES for name in (each.amplitude, each.bias)
+    name: each.unit for each in ELECTRICAL_INPUTS for name in (each.amplitude, each.bias)
 }
-PHASE_UNITS: Mapping[str, str] = {phase_name(each): "rad" for each in ELECTRODES}
+PHASE_UNITS: Mapping[str, str] = {phase_name(each): "rad" for each in ELECTRICAL_INPUTS}
 POSITIVE_UNITS: Mapping[str, str] = {"held_stretch": "1", **CHANGEABLE_UNITS, "frequency": "Hz"}
 LARGEST_INPUT = 1e15  # [N] or [V/m]; beyond, squares leave double precision and a run would never end
 SWEEP_UNITS: Mapping[str, str] = {**INPUT_UNITS, **PHASE_UNITS, **POSITIVE_UNITS}
@@ -67,7 +67,7 @@ class Sweep:
     grid: Grid
     drives: Mapping[str, Drive]  # of inputs by name, where they are drives and not values of the grid
     measures: Measures
-    settings: Settings
+    settings: RunSettings
     engine: Engine
     electrical: ElectricalInput = ELECTRIC_FIELD  # which the sine drives
     equilibria: np.ndarray | None = None  # (n_state, *grid.shape but 1 where nothing depends on the axis)
@@ -131,7 +131,7 @@ def make_sweep(
     model: ModuleType,
     parameters: Parameters,
     values: Mapping[str, object],
-    settings: Settings,
+    settings: RunSettings,
     engine: str,
     measures: Measures,
     initial: Mapping[str, object] | str | None = None,
@@ -180,7 +180,7 @@ def _equilibria(sweep: Sweep) -> np.ndarray:
     Raises:
         ValueError: there is none; the message names the load.
     """
-    idle = {*sine_names(sweep.electrical), "frequency", *(each.name for each in ELECTRODES)}
+    idle = {*sine_names(sweep.electrical), "frequency", *(each.name for each in ELECTRICAL_INPUTS)}
     axes = {name: values if name not in idle else values[:1] for name, values in sweep.grid.axes.items()}
     table = replace(sweep, grid=replace(sweep.grid, axes=axes))
     problem = before_the_field(table.problem(slice(0, table.grid.size)))
@@ -196,7 +196,7 @@ def _with_inputs(
     """The values with those of the inputs by name behind the force.
 
     Raises:
-        ValueError: as `named_inputs` of drives; the field, or what else the sine drives, which has arguments of its own.
+        ValueError: as `named_inputs` of drives; the field or what else the sine drives, which has its own arguments.
     """
     others = named_inputs(model, inputs)
     for name in (FIELD, electrical.name):
@@ -249,7 +249,7 @@ def make_settings(
     limits: Limits,
     averages: bool = False,
     threads: int | None = None,
-) -> Settings:
+) -> RunSettings:
     """The settings of a sweep, checked.
 
     Raises:
@@ -259,7 +259,7 @@ def make_settings(
         raise ValueError(f"limits must be a delagrange.Limits, got {limits!r}")
     duration = check_duration(duration)
     rtol, atol = check_tolerances(rtol, atol)
-    return Settings(
+    return RunSettings(
         tableau=_tableau(numerics),
         control=step_control(numerics.step_control, rtol, atol, duration),
         duration=duration,

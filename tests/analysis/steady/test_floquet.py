@@ -17,9 +17,9 @@ import delagrange as dl
 from delagrange.analysis.steady import floquet
 from delagrange.analysis.steady.periodic_qr import product_logarithms
 from delagrange.analysis.steady.shooting import Orbit, Parts, Shooting
-from delagrange.engines.flow import Path
+from delagrange.engines.flow import FlowPath
 from delagrange.engines.flow_scipy import flow_by_scipy
-from delagrange.equilibrium.continuation import Evaluation, Lost, Settings, continue_branch
+from delagrange.equilibrium.continuation import ContinuationSettings, Evaluation, Lost, continue_branch
 from delagrange.problem.problem import Problem
 
 STIFFNESS, GAIN = 1.0, 0.4
@@ -61,11 +61,11 @@ def boundary(characteristic, order: int, low: float, high: float) -> float:
 def rest_of_mathieu():
     """Points and bifurcations of x = 0 along the frequency."""
     problem = Problem(mathieu(), (dl.Constant(0.0),), ())
-    path = Path(problem, np.ones(2), 1e-11)
+    path = FlowPath(problem, np.ones(2), 1e-11)
     load = {"force": 0.0, "field_amplitude": 1.0, "field_bias": 0.0, "frequency": 0.14}
     one = Shooting(path, flow_by_scipy, np.zeros(2), np.arange(2), load, "frequency", 0.1, 2)
     outside = lambda x: None if x[-1] < 0.19 else "far enough"  # noqa: E731
-    settings = Settings(first_step=0.05, largest_step=0.06, tolerance=1e-10)
+    settings = ContinuationSettings(first_step=0.05, largest_step=0.06, tolerance=1e-10)
     branch = continue_branch(one.residual, np.array([0.0, 0.0, 0.145]), 1, one.scale, settings, outside)
     return branch.points, floquet.bifurcations(one.residual, branch.points, True, one.scale, 1e-10)
 
@@ -109,7 +109,7 @@ def along(family, start: float, stop: float):
     outside = lambda x: None if x[-1] <= stop else "far enough"  # noqa: E731
     x = np.append(np.zeros(size), start)
     scale = np.ones(size + 1)
-    settings = Settings(first_step=0.07, largest_step=0.07)
+    settings = ContinuationSettings(first_step=0.07, largest_step=0.07)
     branch = continue_branch(residual, x, 1, scale, settings, outside)
     return residual, branch.points, scale
 

@@ -10,7 +10,7 @@ from scipy.optimize import root
 import delagrange as dl
 from delagrange.analysis.steady.floquet import spectrum
 from delagrange.analysis.steady.shooting import Shooting
-from delagrange.engines.flow import Path, typical_sizes
+from delagrange.engines.flow import FlowPath, typical_sizes
 from delagrange.engines.flows import resolve_flow
 from delagrange.equilibrium.continuation import Lost, solve
 from delagrange.problem.dashpots import frozen
@@ -32,7 +32,7 @@ def shooting(
     problem = problem if flowing else frozen(problem)
     count = model.COORDINATE_COUNT
     unknowns = np.arange(len(model.STATE) if flowing else 2 * count)
-    path = Path(problem, typical_sizes(problem), 1e-13, limits or dl.Limits())
+    path = FlowPath(problem, typical_sizes(problem), 1e-13, limits or dl.Limits())
     rest = np.asarray(model.reference_state(problem.parameters), dtype=float)
     size, per_sine = 0.1 * load[varied], 1 if load["field_bias"] else 2
     return Shooting(path, resolve_flow(problem), rest, unknowns, load, varied, size, per_sine)

@@ -19,6 +19,7 @@ from delagrange.derive.check.report import detail
 from delagrange.derive.check.verdict import Outcome
 from delagrange.derive.check.verify import symbols_of, verdict_on, witness
 from delagrange.derive.equations.derived_equations import derived_equations
+from delagrange.derive.equations.described import description_equations
 from delagrange.derive.model_file.describe import describe
 from delagrange.derive.model_file.file import read_model_file
 from delagrange.derive.model_file.toml_table import ModelError
@@ -26,7 +27,6 @@ from delagrange.derive.papers.sheng_2015.equations import SHENG_2015
 from delagrange.derive.printed.edits import single_edits
 from delagrange.derive.printed.latex import SymbolTable
 from delagrange.derive.printed.values import evaluate_roughly
-from delagrange.derive.user_model import description_equations
 
 GENT = Path(__file__).parents[2] / "models" / "gent_two_branches.toml"
 PAPER_MODELS = ("biaxial", "equal_biaxial", "uniaxial", "pure_shear_as_printed", "pure_shear_consistent")

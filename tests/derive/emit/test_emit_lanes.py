@@ -35,7 +35,7 @@ from delagrange.derive.kernel.reciprocals import denominators, inverse_name, sha
 from delagrange.derive.membrane.load_cases import EMITTED
 from delagrange.derive.model_file.describe import describe
 from delagrange.derive.model_file.file import read_model_file
-from delagrange.derive.user_model import description_spec
+from delagrange.derive.pipeline import description_spec
 from delagrange.model.kernels import integrate_nothing
 from delagrange.problem import status as loss
 

@@ -11,7 +11,7 @@ from delagrange.derive.kernel.lane_spec import lane_spec
 from delagrange.derive.membrane.description import EQUAL_BIAXIAL, UNIAXIAL, Attachment, Description, Load
 from delagrange.derive.membrane.materials import ALPHA, MATERIALS
 from delagrange.derive.notation import more_symbols as m
-from delagrange.derive.user_model import description_spec
+from delagrange.derive.pipeline import description_spec
 
 EDGES = (Attachment(1, m.EDGE_MASS), Attachment(2, m.EDGE_MASS))
 

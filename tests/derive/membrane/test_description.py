@@ -24,6 +24,7 @@ from described import (
     state_of,
 )
 
+from delagrange.derive.equations.described import description_equations
 from delagrange.derive.membrane.description import (
     BIAXIAL,
     CHARGE,
@@ -39,7 +40,7 @@ from delagrange.derive.membrane.strain_energy import neo_hookean
 from delagrange.derive.notation import more_symbols as m
 from delagrange.derive.notation import symbols as s
 from delagrange.derive.notation.symbols import quantity
-from delagrange.derive.user_model import derive_description, description_equations, description_spec
+from delagrange.derive.pipeline import derive_description, description_spec
 from delagrange.generated import (
     equal_biaxial,
     pure_shear_consistent,

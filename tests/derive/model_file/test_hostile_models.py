@@ -22,7 +22,7 @@ from delagrange.derive.model_file.number_at import number_at
 from delagrange.derive.model_file.toml_table import ModelError
 from delagrange.derive.notation import symbols as s
 from delagrange.derive.notation.symbols import quantity
-from delagrange.derive.user_model import derive_description, description_spec
+from delagrange.derive.pipeline import derive_description, description_spec
 
 MANY = [f"a{k}" for k in range(20)]
 MANY_VALUES = ", ".join(f"{name} = 0.1" for name in MANY)

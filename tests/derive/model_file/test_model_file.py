@@ -18,7 +18,7 @@ from delagrange.derive.model_file.describe import describe
 from delagrange.derive.model_file.entries import MaterialSpring, OwnSpring
 from delagrange.derive.model_file.file import read_model_file
 from delagrange.derive.model_file.toml_table import ModelError, lines_of
-from delagrange.derive.user_model import derive_description
+from delagrange.derive.pipeline import derive_description
 
 EXAMPLE = Path(__file__).parents[2] / "models" / "gent_three_branches.toml"
 

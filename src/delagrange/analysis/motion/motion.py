@@ -14,7 +14,7 @@ from delagrange.common import checks
 from delagrange.common.units import with_unit
 from delagrange.drives.drive import Drive
 from delagrange.drives.inputs import Inputs
-from delagrange.engines.flow import Flow, Path, drive_numbers, typical_sizes
+from delagrange.engines.flow import Flow, FlowPath, drive_numbers, typical_sizes
 from delagrange.engines.flows import resolve_flow
 from delagrange.equilibrium.start import starting_state
 from delagrange.model.load import check_offers, load_model
@@ -34,7 +34,7 @@ TOLERANCE_RANGE = (1e-13, 1e-4)
 class Motion:
     """One run from its start, with what carries it on."""
 
-    path: Path
+    path: FlowPath
     flow: Flow
     start: np.ndarray  # (n_state,) at t = 0
     forcing: Forcing
@@ -96,7 +96,7 @@ def make_motion(
     _check_single(problem, initial_state)
     start = starting_state(problem, initial_state, limits)
     run = frozen(problem) if dashpots == FROZEN else problem
-    path = Path(run, typical_sizes(run), tolerance, limits)
+    path = FlowPath(run, typical_sizes(run), tolerance, limits)
     attributes = run_attributes(problem, material_of(module, parameters).replace(**material), limits)
     if is_equilibrium(module, initial_state):
         attributes["initial_state"] = EQUILIBRIUM_MEANING

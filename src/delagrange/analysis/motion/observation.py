@@ -9,7 +9,7 @@ import numpy as np
 
 from delagrange.analysis.forcing import Forcing
 from delagrange.common.progress import Progress
-from delagrange.engines.flow import Flow, Path
+from delagrange.engines.flow import Flow, FlowPath
 from delagrange.problem.dashpots import FROZEN
 from delagrange.problem.status import COMPLETED
 
@@ -41,13 +41,13 @@ class Observation:
         return self.states[:: self.forcing.samples]
 
 
-def moving_places(path: Path, dashpots: str) -> np.ndarray:
+def moving_places(path: FlowPath, dashpots: str) -> np.ndarray:
     """Places in the state of what moves: all of it, or without the dashpots where these are frozen."""
     model = path.problem.model
     return np.arange(2 * model.COORDINATE_COUNT if dashpots == FROZEN else len(model.STATE))
 
 
-def first_tangent(path: Path, moving: np.ndarray) -> np.ndarray:
+def first_tangent(path: FlowPath, moving: np.ndarray) -> np.ndarray:
     """(n_state, n_moving): vectors orthonormal in units of the weights, in general position, always the same.
 
     A vector along an axis may be special by symmetry; one in general position has a part in every direction.
@@ -60,7 +60,7 @@ def first_tangent(path: Path, moving: np.ndarray) -> np.ndarray:
 
 
 def observe(
-    path: Path,
+    path: FlowPath,
     flow: Flow,
     forcing: Forcing,
     start: np.ndarray,
@@ -86,7 +86,7 @@ def observe(
 
 
 def _follow(
-    path: Path,
+    path: FlowPath,
     flow: Flow,
     forcing: Forcing,
     state: np.ndarray,

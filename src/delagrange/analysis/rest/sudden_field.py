@@ -9,7 +9,7 @@ import numpy as np
 from delagrange.drives.drive import Constant
 from delagrange.drives.inputs import electrical_input
 from delagrange.engines.engines import ENGINES, resolve_numerics
-from delagrange.engines.lanes import Outcome, Settings
+from delagrange.engines.lanes import Outcome, RunSettings
 from delagrange.problem import status as loss
 from delagrange.problem.problem import Problem
 from delagrange.problem.status import Limits
@@ -77,7 +77,7 @@ def bracket_by_integration(
 
 
 def _stood(
-    problem: Problem, start: np.ndarray, fields: np.ndarray, settings: Settings, engine: str
+    problem: Problem, start: np.ndarray, fields: np.ndarray, settings: RunSettings, engine: str
 ) -> np.ndarray:
     """At which fields the membrane stands the whole duration within the limits, (n_fields,) of bool."""
     electrical = electrical_input(problem.model).name

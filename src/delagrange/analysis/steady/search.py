@@ -14,10 +14,10 @@ from delagrange.analysis.steady.load import LOAD_UNITS
 from delagrange.analysis.steady.shooting import Shooting
 from delagrange.common.units import with_unit
 from delagrange.equilibrium.continuation import (
-    Branch,
+    ContinuationSettings,
     Lost,
     Point,
-    Settings,
+    SolutionBranch,
     continue_branch,
     locate,
     parameter_of,
@@ -65,7 +65,7 @@ class Search:
 
     shooting: Shooting
     range: Range
-    settings: Settings
+    settings: ContinuationSettings
     conservative: bool
     largest_amplitude: float  # [1], of the first coordinate
 
@@ -102,7 +102,7 @@ class Search:
         backward, forward = (self._up_to_others(way, others) for way in ways)
         return self._joined(backward, forward, origin)
 
-    def _joined(self, backward: Branch, forward: Branch, origin: str) -> SteadyBranch:
+    def _joined(self, backward: SolutionBranch, forward: SolutionBranch, origin: str) -> SteadyBranch:
         points = tuple(_turned(point) for point in reversed(backward.points[1:])) + forward.points
         points = tuple(self._settled(point) for point in points)
         bifurcations = tuple(
@@ -117,20 +117,20 @@ class Search:
         except Lost:
             return point
 
-    def _both_ways(self, start: Point | np.ndarray) -> tuple[Branch, Branch] | None:
+    def _both_ways(self, start: Point | np.ndarray) -> tuple[SolutionBranch, SolutionBranch] | None:
         direction = 1 if self.range.stop >= self.range.start else -1
         residual, scale = self.shooting.residual, self.shooting.scale
         forward = continue_branch(residual, start, direction, scale, self.settings, self.outside)
         if not forward.points:
             return None
         if forward.ending == "closed on itself":
-            return Branch((), forward.ending), forward
+            return SolutionBranch((), forward.ending), forward
         back_from = _turned(forward.points[0])
         backwards = int(np.sign(back_from.tangent[-1])) or 1
         backward = continue_branch(residual, back_from, backwards, scale, self.settings, self.outside)
         return self._up_to_the_end(backward), self._up_to_the_end(forward)
 
-    def _up_to_the_end(self, branch: Branch) -> Branch:
+    def _up_to_the_end(self, branch: SolutionBranch) -> SolutionBranch:
         """The branch with the point at which it leaves the range."""
         if not branch.points or branch.beyond is None or not branch.ending.startswith(LEFT):
             return branch
@@ -145,14 +145,14 @@ class Search:
         point = replace(point, x=np.append(point.x[:-1], end))
         return replace(branch, points=(*branch.points, point))
 
-    def _up_to_others(self, way: Branch, others: Sequence[SteadyBranch]) -> Branch:
+    def _up_to_others(self, way: SolutionBranch, others: Sequence[SteadyBranch]) -> SolutionBranch:
         """The branch up to where several points in a row lie on another one: a crossing has no more than one."""
         row = 0
         for place, point in enumerate(way.points if others else ()):
             onto = self._place_of(point.x, others)
             row = 0 if onto is None else row + 1
             if row == _IN_A_ROW:
-                return Branch(way.points[: place - row + 2], f"runs onto branch {onto}")
+                return SolutionBranch(way.points[: place - row + 2], f"runs onto branch {onto}")
         return way
 
     def _located(self, before: Point, after: Point, test) -> Point | None:
@@ -221,12 +221,12 @@ class Search:
         branch = self._joined(self._not_twice(*ways, at.kind), ways[1], f"crossing at a {at.kind}")
         return self._without(branch, at.point.x)
 
-    def _not_twice(self, backward: Branch, forward: Branch, kind: str) -> Branch:
+    def _not_twice(self, backward: SolutionBranch, forward: SolutionBranch, kind: str) -> SolutionBranch:
         """The way back; nothing of it where it is the way forth, some forcing periods later."""
         middle = backward.points[len(backward.points) // 2 :][:1]
         there = SteadyBranch(forward.points, ("", ""))
         if middle and len(forward.points) > 1 and self.known(middle[0].x, [there]):
-            return Branch((), f"begins at a {kind}")
+            return SolutionBranch((), f"begins at a {kind}")
         return backward
 
     def _without(self, branch: SteadyBranch, crossing: np.ndarray) -> SteadyBranch:

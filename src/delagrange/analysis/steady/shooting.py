@@ -16,7 +16,7 @@ import numpy as np
 
 from delagrange.analysis.steady.load import LOAD_UNITS, source_of, under_load
 from delagrange.drives.inputs import electrical_input
-from delagrange.engines.flow import Flow, Path, Source, Travel
+from delagrange.engines.flow import Flow, FlowPath, Source, Travel
 from delagrange.equilibrium.continuation import Evaluation, Lost
 from delagrange.equilibrium.statics import input_place
 from delagrange.problem import status as loss
@@ -60,7 +60,7 @@ class Shooting:
     A vector x, (n_unknowns + 1,), holds the unknown part of the state at phase 0, and the varied number last.
     """
 
-    path: Path  # its drives are replaced by those of the load
+    path: FlowPath  # its drives are replaced by those of the load
     flow: Flow
     rest: np.ndarray  # (n_state,), of which what is not unknown stays
     unknowns: np.ndarray  # places in the state
@@ -165,7 +165,7 @@ class Shooting:
             state, divergence = travel.state[-1], divergence + float(travel.divergence[-1])
         return Parts(np.array(matrices), divergence)
 
-    def _path(self, x: np.ndarray) -> tuple[Path, float]:
+    def _path(self, x: np.ndarray) -> tuple[FlowPath, float]:
         """The path under the load of x, and the period of the motion [s]."""
         load = self.at(x[-1])
         if not (np.all(np.isfinite(x)) and load["frequency"] > 0):

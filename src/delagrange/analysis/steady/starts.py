@@ -12,12 +12,12 @@ from delagrange.analysis.steady.load import forces_of
 from delagrange.analysis.steady.search import Range, Search
 from delagrange.analysis.steady.shooting import Shooting
 from delagrange.drives.inputs import ElectricalInput, electrical_input
-from delagrange.equilibrium.continuation import Lost, Settings, continue_branch, solve
+from delagrange.equilibrium.continuation import ContinuationSettings, Lost, continue_branch, solve
 from delagrange.equilibrium.seeds import equilibria_at
 from delagrange.equilibrium.statics import Statics
 
 _FARTHEST = 1.5  # of the wanted amplitude of the field: folds back from beyond are followed that far
-_GROWTH = Settings(
+_GROWTH = ContinuationSettings(
     first_step=0.01, largest_step=0.04, smallest_step=1e-6, most_points=250, tolerance=1e-8, largest_angle=0.3
 )
 

@@ -27,9 +27,9 @@ from delagrange.common import checks
 from delagrange.common.progress import progress_bar, working
 from delagrange.drives.drive import Constant
 from delagrange.drives.inputs import FORCE, constant_inputs, electrical_input, has_input
-from delagrange.engines.flow import Path, typical_sizes
+from delagrange.engines.flow import FlowPath, typical_sizes
 from delagrange.engines.flows import resolve_flow
-from delagrange.equilibrium.continuation import Settings
+from delagrange.equilibrium.continuation import ContinuationSettings
 from delagrange.equilibrium.statics import Statics, input_place, make_statics
 from delagrange.model.load import load_model
 from delagrange.model.model_material import material_of
@@ -162,9 +162,9 @@ def _unloaded(problem: Problem) -> Problem:
     return replace(problem, drives=tuple(Constant(0.0) for _ in problem.drives))
 
 
-def _settings(resolution: int, most_points: int) -> Settings:
+def _settings(resolution: int, most_points: int) -> ContinuationSettings:
     step = 1 / checks.count("resolution", resolution, 10, 100000)
-    return Settings(
+    return ContinuationSettings(
         first_step=_FIRST * step,
         largest_step=step,
         smallest_step=_SMALLEST,
@@ -194,7 +194,7 @@ def _shooting(
     ):
         flow = resolve_flow(problem, engine)
     return Shooting(
-        path=Path(problem, typical_sizes(problem), tolerance, statics.limits),
+        path=FlowPath(problem, typical_sizes(problem), tolerance, statics.limits),
         flow=flow,
         rest=statics.rest,
         unknowns=places,

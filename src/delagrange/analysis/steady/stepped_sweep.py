@@ -16,7 +16,7 @@ from delagrange.common import checks
 from delagrange.common.progress import Progress, progress_bar
 from delagrange.common.units import with_unit
 from delagrange.drives.inputs import ELECTRIC_FIELD, constant_inputs, electrical_input
-from delagrange.engines.flow import Flow, Path, typical_sizes
+from delagrange.engines.flow import Flow, FlowPath, typical_sizes
 from delagrange.engines.flows import resolve_flow
 from delagrange.equilibrium.seeds import equilibria_at
 from delagrange.equilibrium.statics import Statics, make_statics
@@ -38,13 +38,13 @@ _LAST = "half of peak to peak over the last {measure} periods of the {stem} at e
 class _Sweep:
     """A sweep, ready to run."""
 
-    path: Path
+    path: FlowPath
     flow: Flow
     load: Mapping[str, float]
     settle: int
     measure: int
 
-    def at(self, frequency: float) -> Path:
+    def at(self, frequency: float) -> FlowPath:
         load = {**self.load, "frequency": frequency}
         return replace(self.path, problem=under_load(self.path.problem, load))
 
@@ -145,7 +145,9 @@ def stepped_sweep(
     start = _start(statics, load) if initial_state is None else given_state(resting, initial_state)
     problem = replace(statics.problem, drives=driven.drives)
     sweep = _Sweep(
-        path=Path(problem, typical_sizes(problem), checks.within("tolerance", tolerance, "1", *_TOLERANCES), limits),
+        path=FlowPath(
+            problem, typical_sizes(problem), checks.within("tolerance", tolerance, "1", *_TOLERANCES), limits
+        ),
         flow=resolve_flow(problem, engine),
         load=load,
         settle=checks.count("settle", settle, 0, 10_000_000),

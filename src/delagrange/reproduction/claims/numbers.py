@@ -8,7 +8,7 @@ import numpy as np
 import xarray as xr
 
 from delagrange.reproduction.runs.all_runs import Runs
-from delagrange.reproduction.runs.cases import RESPONSES, Load, ResponseFigure
+from delagrange.reproduction.runs.cases import RESPONSES, CurveLoad, ResponseFigure
 from delagrange.reproduction.runs.numerics import PAPER_LIKE
 from delagrange.reproduction.runs.processes import side_by_side
 from delagrange.reproduction.runs.published_numbers import PEAKS, Peak
@@ -55,7 +55,7 @@ class PeakTask:
     paper_numerics: Found
 
 
-def found_peak(response: xr.Dataset, load: Load) -> Found:
+def found_peak(response: xr.Dataset, load: CurveLoad) -> Found:
     """The peak of one curve, among the points at which the solution was not lost."""
     one = curve(response, load)
     frequency, amplitude = one["frequency"].values, one["amplitude"].values
@@ -68,7 +68,7 @@ def found_peak(response: xr.Dataset, load: Load) -> Found:
     )
 
 
-def amplitude_error(figure: ResponseFigure, formulation: str | None, load: Load, found: Found) -> float:
+def amplitude_error(figure: ResponseFigure, formulation: str | None, load: CurveLoad, found: Found) -> float:
     """Difference to SciPy's scalar DOP853 at rtol 1e-12, extrema from its own dense output [1]."""
     witness = frequency_response(
         figure.model,

@@ -15,7 +15,7 @@ from delagrange.reproduction.claims import measures
 from delagrange.reproduction.claims.claim import Claim
 from delagrange.reproduction.claims.numbers import Found, found_peak
 from delagrange.reproduction.runs.all_runs import Runs
-from delagrange.reproduction.runs.cases import RESPONSES, Load, Panel
+from delagrange.reproduction.runs.cases import RESPONSES, CurveLoad, Panel
 from delagrange.reproduction.runs.responses import curve
 
 _RESPONSE = {figure.model: figure for figure in RESPONSES}
@@ -59,7 +59,7 @@ def _small_vibration_text(model: str, formulation: str | None, letter: str) -> s
     return f"small vibrations: f_n/2 = {each} Hz"
 
 
-def small_vibration_resonances(model: str, formulation: str | None, load: Load) -> np.ndarray:
+def small_vibration_resonances(model: str, formulation: str | None, load: CurveLoad) -> np.ndarray:
     """Halves of the natural frequencies [Hz] under the force and the mean square of the field, dashpots frozen."""
     found = modes(
         model,
@@ -111,7 +111,7 @@ def grows_large(runs: Runs, formulation: str | None) -> tuple[bool, str]:
     return peaks[-1].amplitude > 2 * peaks[0].amplitude, _peaks_text(peaks)
 
 
-def _away_from_resonance(response: xr.Dataset, load: Load) -> float:
+def _away_from_resonance(response: xr.Dataset, load: CurveLoad) -> float:
     """Median amplitude further than 20 % from the resonant frequency."""
     one = curve(response, load)
     resonance = found_peak(response, load).frequency

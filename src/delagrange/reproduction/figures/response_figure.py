@@ -23,7 +23,7 @@ from delagrange.figures.style import (
 )
 from delagrange.reproduction.figures.labels import DRIVE_TEXT, load_label, quantity_label, value_label
 from delagrange.reproduction.runs.all_runs import Runs
-from delagrange.reproduction.runs.cases import Load, Panel, ResponseFigure
+from delagrange.reproduction.runs.cases import CurveLoad, Panel, ResponseFigure
 from delagrange.reproduction.runs.published_numbers import PEAKS, Peak
 from delagrange.reproduction.runs.runs import ACCURATE, NUMERICS, PAPER_LIKE, curve, formulations
 from delagrange.run.run_dataset import PAPER as SOURCE
@@ -99,7 +99,7 @@ def _panel_legend(axes: Axes, panel: Panel) -> None:
     )  # fmt: skip
 
 
-def peaks_of(case: ResponseFigure, load: Load) -> tuple[Peak, ...]:
+def peaks_of(case: ResponseFigure, load: CurveLoad) -> tuple[Peak, ...]:
     """What the paper prints of the curve of a load in a figure."""
     return tuple(peak for peak in PEAKS if peak.figure == case.number and peak.load == load)
 

@@ -13,7 +13,7 @@ import numpy as np
 
 
 @dataclass(frozen=True)
-class Load:
+class CurveLoad:
     """One constant force, field amplitude and, in pure shear, held stretch."""
 
     force: float  # P [N]
@@ -27,7 +27,7 @@ class Panel:
 
     letter: str
     varied: str  # "force", "field_amplitude" or "held_stretch"
-    loads: tuple[Load, ...]
+    loads: tuple[CurveLoad, ...]
 
 
 @dataclass(frozen=True)
@@ -49,7 +49,7 @@ class ResponseFigure:
         return self.first_frequency + self.frequency_step * np.arange(count)
 
     @property
-    def loads(self) -> tuple[Load, ...]:
+    def loads(self) -> tuple[CurveLoad, ...]:
         """All loads of the figure, each once."""
         return tuple(dict.fromkeys(load for panel in self.panels for load in panel.loads))
 
@@ -61,15 +61,15 @@ class MotionFigures:
     history_number: int
     phase_number: int
     model: str
-    load: Load
+    load: CurveLoad
     frequencies: tuple[float, float, float]  # half the resonance, the resonance, twice the resonance [Hz]
     window: float  # of the time histories [s]
 
 
 def _loads(
     forces: tuple[float, ...], fields: tuple[float, ...], held: tuple[float | None, ...]
-) -> tuple[Load, ...]:
-    return tuple(Load(p, e, h) for p in forces for e in fields for h in held)
+) -> tuple[CurveLoad, ...]:
+    return tuple(CurveLoad(p, e, h) for p in forces for e in fields for h in held)
 
 
 def _force_and_field_panels() -> tuple[Panel, Panel]:
@@ -98,7 +98,7 @@ RESPONSES: tuple[ResponseFigure, ...] = (
 )
 
 MOTIONS: tuple[MotionFigures, ...] = (
-    MotionFigures(5, 6, "equal_biaxial", Load(0.5, 5e6), (185.0, 371.0, 742.0), 0.1),
-    MotionFigures(8, 9, "uniaxial", Load(0.5, 5e6), (212.0, 424.0, 848.0), 0.1),
-    MotionFigures(11, 12, "pure_shear", Load(0.1, 3e6, 2.0), (190.0, 381.0, 762.0), 0.12),
+    MotionFigures(5, 6, "equal_biaxial", CurveLoad(0.5, 5e6), (185.0, 371.0, 742.0), 0.1),
+    MotionFigures(8, 9, "uniaxial", CurveLoad(0.5, 5e6), (212.0, 424.0, 848.0), 0.1),
+    MotionFigures(11, 12, "pure_shear", CurveLoad(0.1, 3e6, 2.0), (190.0, 381.0, 762.0), 0.12),
 )

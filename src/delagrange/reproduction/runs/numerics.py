@@ -6,14 +6,14 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from delagrange.engines.lanes import Settings
+from delagrange.engines.lanes import RunSettings
 from delagrange.engines.step_control import step_control
 from delagrange.engines.tableau import tableau
 from delagrange.problem.status import Limits
 
 
 @dataclass(frozen=True)
-class Numerics:
+class NumericsVariant:
     """How runs are integrated and their extrema taken; the arguments are those of `frequency_response`."""
 
     name: str
@@ -29,11 +29,11 @@ class Numerics:
         """The true frequency [Hz] of sin(2 pi f t) with this pi, for a nominal `frequency` [Hz]."""
         return frequency * (self.pi / np.pi)
 
-    def settings(self, duration: float) -> Settings:
+    def settings(self, duration: float) -> RunSettings:
         """For the ensemble, with extrema over the whole `duration` [s]."""
         pair = "RK45_MATLAB" if self.step_control == "ode45" else self.method
         control = step_control(self.step_control, self.rtol, self.atol, duration)
-        return Settings(tableau(pair), control, duration, (0.0, duration), Limits(), self.extrema)
+        return RunSettings(tableau(pair), control, duration, (0.0, duration), Limits(), self.extrema)
 
     def attributes(self) -> dict[str, object]:
         """For the attributes of a Dataset."""
@@ -45,7 +45,7 @@ class Numerics:
         }
 
 
-ACCURATE = Numerics(
+ACCURATE = NumericsVariant(
     name="accurate",
     method="DOP853",
     rtol=1e-9,
@@ -58,7 +58,7 @@ ACCURATE = Numerics(
 
 # Which program the authors used is not stated. Of the variants of an embedded 5(4) pair at this tolerance,
 # step control and output of MATLAB's ode45 at its defaults come nearest to the four printed peaks of Fig. 4.
-PAPER_LIKE = Numerics(
+PAPER_LIKE = NumericsVariant(
     name="paper",
     method="RK45",
     rtol=1e-3,

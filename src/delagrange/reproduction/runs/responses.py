@@ -14,8 +14,8 @@ from delagrange.engines.numpy_engine import integrate_lanes
 from delagrange.model.load import load_model
 from delagrange.model.parameters import SHENG_2015
 from delagrange.problem.problem import Problem, make_problem
-from delagrange.reproduction.runs.cases import Load, ResponseFigure
-from delagrange.reproduction.runs.numerics import ACCURATE, Numerics
+from delagrange.reproduction.runs.cases import CurveLoad, ResponseFigure
+from delagrange.reproduction.runs.numerics import ACCURATE, NumericsVariant
 from delagrange.run.run_dataset import (
     AMPLITUDE_DEFINITION,
     extrema_variables,
@@ -28,7 +28,7 @@ from delagrange.run.run_dataset import (
 
 def response(
     figure: ResponseFigure,
-    numerics: Numerics = ACCURATE,
+    numerics: NumericsVariant = ACCURATE,
     formulation: str | None = None,
     frequency: np.ndarray | None = None,
 ) -> xr.Dataset:
@@ -66,7 +66,7 @@ def _paired_problem(figure: ResponseFigure, formulation: str | None, frequency: 
 
 
 def _response_dataset(
-    figure: ResponseFigure, problem: Problem, numerics: Numerics, frequency: np.ndarray, outcome: Outcome
+    figure: ResponseFigure, problem: Problem, numerics: NumericsVariant, frequency: np.ndarray, outcome: Outcome
 ) -> xr.Dataset:
     dimensions, shape = ("load", "frequency"), (len(figure.loads), len(frequency))
     settings = numerics.settings(figure.window)
@@ -90,7 +90,7 @@ def _response_dataset(
     return xr.Dataset(data, coords=coordinates, attrs=attributes)
 
 
-def _load_coordinates(loads: tuple[Load, ...]) -> dict[str, tuple]:
+def _load_coordinates(loads: tuple[CurveLoad, ...]) -> dict[str, tuple]:
     meanings = {
         "force": ("N", "applied force", "P"),
         "field_amplitude": ("V/m", "amplitude of the nominal electric field", "E_0"),
@@ -103,7 +103,7 @@ def _load_coordinates(loads: tuple[Load, ...]) -> dict[str, tuple]:
     }
 
 
-def curve(responses: xr.Dataset, load: Load) -> xr.Dataset:
+def curve(responses: xr.Dataset, load: CurveLoad) -> xr.Dataset:
     """The curve over `frequency` of one load of a response.
 
     Raises:

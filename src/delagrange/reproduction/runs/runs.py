@@ -13,12 +13,12 @@ from delagrange.model.parameters import SHENG_2015
 from delagrange.reproduction.runs.cases import MOTIONS, RESPONSES, MotionFigures, ResponseFigure
 from delagrange.reproduction.runs.kinds import kinds
 from delagrange.reproduction.runs.motions import SECTION_POINTS, motion, motions, section, sections
-from delagrange.reproduction.runs.numerics import ACCURATE, NUMERICS, PAPER_LIKE, Numerics
+from delagrange.reproduction.runs.numerics import ACCURATE, NUMERICS, PAPER_LIKE, NumericsVariant
 from delagrange.reproduction.runs.responses import curve, response
 from delagrange.reproduction.runs.store import digest
 
 __all__ = [
-    "ACCURATE", "KINDS", "NUMERICS", "PAPER_LIKE", "SECTION_POINTS", "Job", "Numerics", "curve", "formulations",
+    "ACCURATE", "KINDS", "NUMERICS", "PAPER_LIKE", "SECTION_POINTS", "Job", "NumericsVariant", "curve", "formulations",
     "jobs", "kind_jobs", "kinds", "motion", "motions", "response", "section", "sections",
 ]  # fmt: skip
 
@@ -33,7 +33,7 @@ class Job:
     figure: int
     case: ResponseFigure | MotionFigures
     formulation: str | None
-    numerics: Numerics
+    numerics: NumericsVariant
     asks_kinds: bool = False
 
     @property
