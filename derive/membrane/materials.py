@@ -15,6 +15,7 @@ from types import MappingProxyType
 import sympy as sp
 
 from delagrange.common.checks import count, did_you_mean
+from delagrange.common.roles import Role, usual_sign
 from delagrange.derive.membrane.description import numbered
 from delagrange.derive.membrane.strain_energy import (
     StrainEnergy,
@@ -62,7 +63,8 @@ class ParameterKind:
     latex: str
     unit: str
     meaning: str  # "locking limit": the meaning then goes on "of spring α"
-    positive: bool = True  # False where published fits have either sign
+    role: Role = Role.CONSTANT
+    positive: bool = True  # whether its symbol is; False where published fits have either sign
 
     def of(self, spring: Spring) -> Quantity:
         """The quantity of a spring; the symbol table's own where it has one."""
@@ -80,6 +82,8 @@ class ParameterKind:
             rf"{self.latex}^{{\{spring.letter}}}",
             self.unit,
             f"{self.meaning} of spring {_GREEK[spring.letter]}",
+            self.role,
+            usual_sign(self.role),
         )
 
 
@@ -122,7 +126,7 @@ def _modulus(
 ) -> ParameterKind:
     tail = "" if number is None else f"_{number}"
     latex = rf"\mu_{{{number}}}" if number else r"\mu"
-    return ParameterKind(name + tail, key + tail, f"μ{tail}", latex, "Pa", meaning, positive)
+    return ParameterKind(name + tail, key + tail, f"μ{tail}", latex, "Pa", meaning, Role.MODULUS, positive)
 
 
 def _ogden_term(term: int) -> tuple[ParameterKind, ...]:
@@ -135,6 +139,7 @@ def _ogden_term(term: int) -> tuple[ParameterKind, ...]:
             f"a_{{{term}}}",
             "1",
             f"exponent of Ogden term {term}",
+            Role.EXPONENT,
             positive=False,
         ),
     )
@@ -148,16 +153,27 @@ def _yeoh_coefficient(power: int) -> ParameterKind:
         f"C_{{{power}}}",
         "Pa",
         f"coefficient of (I_1 - 3){'' if power == 1 else f'^{power}'}",
+        Role.MODULUS,
         positive=power == 1,
     )
 
 
 _SHEAR_MODULUS = _modulus("shear_modulus", "mu", None, "shear modulus")
-_SECOND_MODULUS = ParameterKind("second_modulus", "mu_2", "μ_2", r"\mu_{2}", "Pa", "second modulus")
-_LOCKING = ParameterKind("locking", "J", "J", "J", "1", "locking limit, of its first invariant less 3,")
+_SECOND_MODULUS = ParameterKind(
+    "second_modulus", "mu_2", "μ_2", r"\mu_{2}", "Pa", "second modulus", Role.MODULUS
+)
+_LOCKING = ParameterKind(
+    "locking", "J", "J", "J", "1", "locking limit, of its first invariant less 3,", Role.LOCKING_LIMIT
+)
 _CHAIN_MODULUS = _modulus("chain_modulus", "chain_mu", None, "modulus of the chains")
 _LOCKING_STRETCH = ParameterKind(
-    "locking_stretch", "lambda_m", "λ_m", r"\lambda_{m}", "1", "stretch of a chain at its full length,"
+    "locking_stretch",
+    "lambda_m",
+    "λ_m",
+    r"\lambda_{m}",
+    "1",
+    "stretch of a chain at its full length,",
+    Role.LOCKING_LIMIT,
 )
 
 MATERIALS: Mapping[str, MaterialForm] = MappingProxyType(

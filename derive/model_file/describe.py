@@ -9,6 +9,7 @@ from types import MappingProxyType
 
 import sympy as sp
 
+from delagrange.common.roles import Sign
 from delagrange.derive.membrane.description import (
     Attachment,
     Body,
@@ -132,14 +133,15 @@ def _relation(entry: RelationEntry) -> Relation:
 
 
 def _coordinate(entry: RelationEntry) -> TimeDependent:
-    """The coordinate of a relation with its rates; its symbol is positive only where it is known to be."""
+    """The coordinate of a relation with its rates; it is positive only where it is known to be."""
     name = entry.coordinate
     own = f"coordinate_{name}"  # no name of emitted code begins so
     latex, meaning = name.replace("_", ""), f"coordinate {name} of the relation"
     coordinate = moving(own, own, name, latex, meaning)
     if is_positive(entry):
         return coordinate
-    return replace(coordinate, value=replace(coordinate.value, symbol=sp.Symbol(own)))
+    of_any_sign = replace(coordinate.value, symbol=sp.Symbol(own), sign=Sign.ANY)
+    return replace(coordinate, value=of_any_sign)
 
 
 def _attachments(entry: AttachmentEntry) -> tuple[Attachment, ...]:

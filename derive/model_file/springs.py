@@ -240,7 +240,7 @@ def own_quantity(constant: Constant, spring: Spring) -> Quantity:
         rf"\mathrm{{{constant.name.replace('_', '')}}}",
         constant.unit,
         f"parameter {constant.name}",
-        constant.value > 0,
+        positive=constant.value > 0,
     )
     quantity = kind.of(spring)
     if quantity.unit != constant.unit:

@@ -5,14 +5,27 @@ They stand in no table: a model carries its own quantities (`EquationsOfMotion.q
 
 from __future__ import annotations
 
+from delagrange.common.roles import Role
 from delagrange.derive.notation.symbols import TimeDependent, moving, quantity
 
 # The membrane
 HALF_LENGTH_1 = quantity(
-    "L_1", "half_length_1", "L_1", "L_{1}", "m", "half the side along axis 1 in the reference state"
+    "L_1",
+    "half_length_1",
+    "L_1",
+    "L_{1}",
+    "m",
+    "half the side along axis 1 in the reference state",
+    Role.SIZE,
 )
 HALF_LENGTH_2 = quantity(
-    "L_2", "half_length_2", "L_2", "L_{2}", "m", "half the side along axis 2 in the reference state"
+    "L_2",
+    "half_length_2",
+    "L_2",
+    "L_{2}",
+    "m",
+    "half the side along axis 2 in the reference state",
+    Role.SIZE,
 )
 PARALLEL_VISCOSITY = quantity(
     "eta_KV",
@@ -21,23 +34,36 @@ PARALLEL_VISCOSITY = quantity(
     r"\eta_{KV}",
     "Pa s",
     "viscosity of the dashpot beside all springs",
+    Role.DAMPING,
 )
 MEDIUM_DAMPING = quantity(
-    "c", "medium_damping", "c", "c", "Pa s/m", "traction of the medium on each face over its velocity"
+    "c",
+    "medium_damping",
+    "c",
+    "c",
+    "Pa s/m",
+    "traction of the medium on each face over its velocity",
+    Role.DAMPING,
 )
 EDGE_MASSES = tuple(
     quantity(f"m_{axis}", f"edge_mass_{axis}", f"m_{axis}", f"m_{{{axis}}}", "kg",
-             f"mass on each edge normal to axis {axis}")
+             f"mass on each edge normal to axis {axis}", Role.MASS)
     for axis in (1, 2)
 )  # fmt: skip
 EDGE_STIFFNESSES = tuple(
     quantity(f"k_{axis}", f"edge_stiffness_{axis}", f"k_{axis}", f"k_{{{axis}}}", "N/m",
-             f"stiffness of the spring on each edge normal to axis {axis}")
+             f"stiffness of the spring on each edge normal to axis {axis}", Role.STIFFNESS)
     for axis in (1, 2)
 )  # fmt: skip
-EDGE_MASS = quantity("m", "edge_mass", "m", "m", "kg", "mass on each of the four edges")
+EDGE_MASS = quantity("m", "edge_mass", "m", "m", "kg", "mass on each of the four edges", Role.MASS)
 EDGE_STIFFNESS = quantity(
-    "k", "edge_stiffness", "k", "k", "N/m", "stiffness of the spring on each of the four edges"
+    "k",
+    "edge_stiffness",
+    "k",
+    "k",
+    "N/m",
+    "stiffness of the spring on each of the four edges",
+    Role.STIFFNESS,
 )
 
 # What drives it
@@ -48,6 +74,7 @@ CHARGE_DENSITY = quantity(
     "D",
     "C/m^2",
     "nominal charge density, charge over the area of an electrode in the reference state",
+    Role.CHARGE_DENSITY,
     positive=False,
 )
 CHARGE_RATE = quantity(
@@ -57,6 +84,7 @@ CHARGE_RATE = quantity(
     r"\dot{D}",
     "A/m^2",
     "rate of change of the nominal charge density",
+    Role.RATE,
     positive=False,
 )
 CURRENT_DENSITY = quantity(
@@ -66,21 +94,29 @@ CURRENT_DENSITY = quantity(
     "j",
     "A/m^2",
     "nominal current density, current to an electrode over its area in the reference state",
+    Role.CURRENT_DENSITY,
     positive=False,
 )
 CONDUCTIVITY = quantity(
-    "sigma", "conductivity", "σ", r"\sigma", "S/m", "electrical conductivity of the elastomer"
+    "sigma",
+    "conductivity",
+    "σ",
+    r"\sigma",
+    "S/m",
+    "electrical conductivity of the elastomer",
+    Role.CONDUCTIVITY,
 )
 
 # What holds it
 REACTIONS = tuple(
     quantity(f"R_{axis}", f"reaction_force_{axis}", f"R_{axis}", f"R_{{{axis}}}", "N",
-             f"force of the frame on each edge normal to axis {axis}, beside any applied force", positive=False)
+             f"force of the frame on each edge normal to axis {axis}, beside any applied force", Role.REACTION,
+             positive=False)
     for axis in (1, 2)
 )  # fmt: skip
 
 # What moves
-STRETCH = moving("lambda", "stretch", "λ", r"\lambda", "in-plane stretch")
+STRETCH = moving("lambda", "stretch", "λ", r"\lambda", "in-plane stretch", Role.STRETCH)
 
 
 def inelastic_stretch(branch: int | None, axis: int | None) -> TimeDependent:
@@ -98,4 +134,5 @@ def inelastic_stretch(branch: int | None, axis: int | None) -> TimeDependent:
         "inelastic stretch of the dashpot"
         + (f" of branch {branch}" if branch is not None else "")
         + (f" along axis {axis}" if axis is not None else ""),
+        Role.INELASTIC_STRETCH,
     )

@@ -7,9 +7,11 @@ to be the same.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import sympy as sp
+
+from delagrange.common.roles import Role, Sign, usual_sign
 
 
 @dataclass(frozen=True)
@@ -22,6 +24,8 @@ class Quantity:
     latex: str  # notation in LaTeX, e.g. r"\lambda_{EB}"
     unit: str  # SI, e.g. "kg/m^3"; "1" for a pure number
     meaning: str  # one line for a person
+    role: Role = Role.CONSTANT  # what it is in a model
+    sign: Sign = Sign.ANY  # which values it may have; the symbol may assume more, to keep formulas short
 
 
 @dataclass(frozen=True)
@@ -34,11 +38,20 @@ class TimeDependent:
 
 
 def quantity(
-    key: str, name: str, text: str, latex: str, unit: str, meaning: str, *, positive: bool = True
+    key: str,
+    name: str,
+    text: str,
+    latex: str,
+    unit: str,
+    meaning: str,
+    role: Role = Role.CONSTANT,
+    *,
+    positive: bool = True,
 ) -> Quantity:
-    """A quantity with a symbol of its own, called `key` in the algebra."""
+    """A quantity with a symbol of its own, called `key` in the algebra, and the sign that its role allows."""
     assumptions = {"positive": True} if positive else {"real": True}
-    return Quantity(sp.Symbol(key, **assumptions), name, text, latex, unit, meaning)
+    symbol = sp.Symbol(key, **assumptions)
+    return Quantity(symbol, name, text, latex, unit, meaning, role, usual_sign(role))
 
 
 def _rate_name(name: str, suffix: str) -> str:
@@ -52,12 +65,14 @@ def _dotted(text: str, mark: str) -> str:
     return text[0] + mark + text[1:]
 
 
-def moving(key: str, name: str, text: str, latex: str, meaning: str) -> TimeDependent:
-    """A stretch-like quantity [1] with its rates [1/s], [1/s^2]."""
+def moving(
+    key: str, name: str, text: str, latex: str, meaning: str, role: Role = Role.COORDINATE
+) -> TimeDependent:
+    """A positive quantity [1] with its rates [1/s], [1/s^2]."""
     head, _, subscript = latex.partition("_")
     tail = f"_{subscript}" if subscript else ""
     return TimeDependent(
-        quantity(key, name, text, latex, "1", meaning),
+        replace(quantity(key, name, text, latex, "1", meaning, role), sign=Sign.POSITIVE),
         quantity(
             f"{key}_dot",
             _rate_name(name, "rate"),
@@ -65,6 +80,7 @@ def moving(key: str, name: str, text: str, latex: str, meaning: str) -> TimeDepe
             rf"\dot{{{head}}}{tail}",
             "1/s",
             f"rate of change of the {meaning}",
+            Role.RATE,
             positive=False,
         ),
         quantity(
@@ -74,30 +90,41 @@ def moving(key: str, name: str, text: str, latex: str, meaning: str) -> TimeDepe
             rf"\ddot{{{head}}}{tail}",
             "1/s^2",
             f"second rate of change of the {meaning}",
+            Role.ACCELERATION,
             positive=False,
         ),
     )
 
 
 # Time and place
-TIME = quantity("t", "time", "t", "t", "s", "time", positive=False)
+TIME = quantity("t", "time", "t", "t", "s", "time", Role.TIME, positive=False)
 MATERIAL_X = quantity(
-    "X", "material_x", "X", "X", "m", "material coordinate in the plane, axis 1", positive=False
+    "X", "material_x", "X", "X", "m", "material coordinate in the plane, axis 1", Role.PLACE, positive=False
 )
 MATERIAL_Y = quantity(
-    "Y", "material_y", "Y", "Y", "m", "material coordinate in the plane, axis 2", positive=False
+    "Y", "material_y", "Y", "Y", "m", "material coordinate in the plane, axis 2", Role.PLACE, positive=False
 )
 MATERIAL_Z = quantity(
-    "Z", "material_z", "Z", "Z", "m", "material coordinate through the thickness", positive=False
+    "Z", "material_z", "Z", "Z", "m", "material coordinate through the thickness", Role.PLACE, positive=False
 )
 
 # The membrane
 HALF_LENGTH = quantity(
-    "L", "half_length", "L", "L", "m", "half the side of the square membrane in the reference state"
+    "L",
+    "half_length",
+    "L",
+    "L",
+    "m",
+    "half the side of the square membrane in the reference state",
+    Role.SIZE,
 )
-HALF_THICKNESS = quantity("H", "half_thickness", "H", "H", "m", "half the thickness in the reference state")
-DENSITY = quantity("rho", "density", "ρ", r"\rho", "kg/m^3", "mass density")
-PERMITTIVITY = quantity("epsilon", "permittivity", "ε", r"\varepsilon", "F/m", "permittivity")
+HALF_THICKNESS = quantity(
+    "H", "half_thickness", "H", "H", "m", "half the thickness in the reference state", Role.SIZE
+)
+DENSITY = quantity("rho", "density", "ρ", r"\rho", "kg/m^3", "mass density", Role.MASS_DENSITY)
+PERMITTIVITY = quantity(
+    "epsilon", "permittivity", "ε", r"\varepsilon", "F/m", "permittivity", Role.PERMITTIVITY
+)
 SHEAR_MODULUS_ALPHA = quantity(
     "mu_alpha",
     "shear_modulus_alpha",
@@ -105,6 +132,7 @@ SHEAR_MODULUS_ALPHA = quantity(
     r"\mu^{\alpha}",
     "Pa",
     "shear modulus of spring α, the equilibrium spring",
+    Role.MODULUS,
 )
 SHEAR_MODULUS_BETA = quantity(
     "mu_beta",
@@ -113,15 +141,30 @@ SHEAR_MODULUS_BETA = quantity(
     r"\mu^{\beta}",
     "Pa",
     "shear modulus of spring β, in series with the dashpot",
+    Role.MODULUS,
 )
-VISCOSITY = quantity("eta", "viscosity", "η", r"\eta", "Pa s", "viscosity of the dashpot, τ_v μ^β")
+VISCOSITY = quantity(
+    "eta", "viscosity", "η", r"\eta", "Pa s", "viscosity of the dashpot, τ_v μ^β", Role.VISCOSITY
+)
 
 # Further constants of the strain energies
 SECOND_MODULUS_ALPHA = quantity(
-    "mu_2_alpha", "second_modulus_alpha", "μ_2^α", r"\mu_{2}^{\alpha}", "Pa", "second modulus of spring α"
+    "mu_2_alpha",
+    "second_modulus_alpha",
+    "μ_2^α",
+    r"\mu_{2}^{\alpha}",
+    "Pa",
+    "second modulus of spring α",
+    Role.MODULUS,
 )
 SECOND_MODULUS_BETA = quantity(
-    "mu_2_beta", "second_modulus_beta", "μ_2^β", r"\mu_{2}^{\beta}", "Pa", "second modulus of spring β"
+    "mu_2_beta",
+    "second_modulus_beta",
+    "μ_2^β",
+    r"\mu_{2}^{\beta}",
+    "Pa",
+    "second modulus of spring β",
+    Role.MODULUS,
 )
 LOCKING_ALPHA = quantity(
     "J_alpha",
@@ -130,6 +173,7 @@ LOCKING_ALPHA = quantity(
     r"J^{\alpha}",
     "1",
     "locking limit of spring α, of its first invariant less 3",
+    Role.LOCKING_LIMIT,
 )
 LOCKING_BETA = quantity(
     "J_beta",
@@ -138,12 +182,17 @@ LOCKING_BETA = quantity(
     r"J^{\beta}",
     "1",
     "locking limit of spring β, of its first invariant less 3",
+    Role.LOCKING_LIMIT,
 )
 
 # What drives it
-FORCE_1 = quantity("P_1", "force_1", "P_1", "P_1", "N", "force on each edge normal to axis 1", positive=False)
-FORCE_2 = quantity("P_2", "force_2", "P_2", "P_2", "N", "force on each edge normal to axis 2", positive=False)
-FORCE = quantity("P", "force", "P", "P", "N", "force on each loaded edge", positive=False)
+FORCE_1 = quantity(
+    "P_1", "force_1", "P_1", "P_1", "N", "force on each edge normal to axis 1", Role.FORCE, positive=False
+)
+FORCE_2 = quantity(
+    "P_2", "force_2", "P_2", "P_2", "N", "force on each edge normal to axis 2", Role.FORCE, positive=False
+)
+FORCE = quantity("P", "force", "P", "P", "N", "force on each loaded edge", Role.FORCE, positive=False)
 FIELD = quantity(
     "E",
     "nominal_electric_field",
@@ -151,6 +200,7 @@ FIELD = quantity(
     "E",
     "V/m",
     "nominal electric field, voltage over reference thickness",
+    Role.ELECTRIC_FIELD,
     positive=False,
 )
 REACTION_2 = quantity(
@@ -160,29 +210,54 @@ REACTION_2 = quantity(
     "P_{2p}",
     "N",
     "force on each edge normal to axis 2 that holds its stretch",
+    Role.REACTION,
     positive=False,
 )
 
 # The full membrane: two in-plane stretches, two inelastic stretches of the dashpot
-STRETCH_1 = moving("lambda_1", "stretch_1", "λ_1", r"\lambda_1", "stretch along axis 1")
-STRETCH_2 = moving("lambda_2", "stretch_2", "λ_2", r"\lambda_2", "stretch along axis 2")
+STRETCH_1 = moving("lambda_1", "stretch_1", "λ_1", r"\lambda_1", "stretch along axis 1", Role.STRETCH)
+STRETCH_2 = moving("lambda_2", "stretch_2", "λ_2", r"\lambda_2", "stretch along axis 2", Role.STRETCH)
 INELASTIC_STRETCH_1 = moving(
-    "xi_1", "inelastic_stretch_1", "ξ_1", r"\xi_1", "inelastic stretch of the dashpot along axis 1"
+    "xi_1",
+    "inelastic_stretch_1",
+    "ξ_1",
+    r"\xi_1",
+    "inelastic stretch of the dashpot along axis 1",
+    Role.INELASTIC_STRETCH,
 )
 INELASTIC_STRETCH_2 = moving(
-    "xi_2", "inelastic_stretch_2", "ξ_2", r"\xi_2", "inelastic stretch of the dashpot along axis 2"
+    "xi_2",
+    "inelastic_stretch_2",
+    "ξ_2",
+    r"\xi_2",
+    "inelastic stretch of the dashpot along axis 2",
+    Role.INELASTIC_STRETCH,
 )
 
 # The coordinates of each load case
-STRETCH_EB = moving("lambda_EB", "stretch", "λ_EB", r"\lambda_{EB}", "in-plane stretch")
+STRETCH_EB = moving("lambda_EB", "stretch", "λ_EB", r"\lambda_{EB}", "in-plane stretch", Role.STRETCH)
 INELASTIC_STRETCH_EB = moving(
-    "xi_EB", "inelastic_stretch", "ξ_EB", r"\xi_{EB}", "inelastic stretch of the dashpot"
+    "xi_EB",
+    "inelastic_stretch",
+    "ξ_EB",
+    r"\xi_{EB}",
+    "inelastic stretch of the dashpot",
+    Role.INELASTIC_STRETCH,
 )
 
-STRETCH_UA1 = moving("lambda_UA1", "stretch_1", "λ_UA1", r"\lambda_{UA1}", "stretch along the force")
-STRETCH_UA2 = moving("lambda_UA2", "stretch_2", "λ_UA2", r"\lambda_{UA2}", "stretch across the force")
+STRETCH_UA1 = moving(
+    "lambda_UA1", "stretch_1", "λ_UA1", r"\lambda_{UA1}", "stretch along the force", Role.STRETCH
+)
+STRETCH_UA2 = moving(
+    "lambda_UA2", "stretch_2", "λ_UA2", r"\lambda_{UA2}", "stretch across the force", Role.STRETCH
+)
 INELASTIC_STRETCH_UA1 = moving(
-    "xi_UA1", "inelastic_stretch_1", "ξ_UA1", r"\xi_{UA1}", "inelastic stretch of the dashpot along the force"
+    "xi_UA1",
+    "inelastic_stretch_1",
+    "ξ_UA1",
+    r"\xi_{UA1}",
+    "inelastic stretch of the dashpot along the force",
+    Role.INELASTIC_STRETCH,
 )
 INELASTIC_STRETCH_UA2 = moving(
     "xi_UA2",
@@ -190,11 +265,17 @@ INELASTIC_STRETCH_UA2 = moving(
     "ξ_UA2",
     r"\xi_{UA2}",
     "inelastic stretch of the dashpot across the force",
+    Role.INELASTIC_STRETCH,
 )
 
-STRETCH_PS = moving("lambda_PS", "stretch", "λ_PS", r"\lambda_{PS}", "stretch along the force")
+STRETCH_PS = moving("lambda_PS", "stretch", "λ_PS", r"\lambda_{PS}", "stretch along the force", Role.STRETCH)
 INELASTIC_STRETCH_PS = moving(
-    "xi_PS", "inelastic_stretch", "ξ_PS", r"\xi_{PS}", "inelastic stretch of the dashpot along the force"
+    "xi_PS",
+    "inelastic_stretch",
+    "ξ_PS",
+    r"\xi_{PS}",
+    "inelastic stretch of the dashpot along the force",
+    Role.INELASTIC_STRETCH,
 )
 INELASTIC_STRETCH_PS2 = moving(
     "xi_PS2",
@@ -202,17 +283,31 @@ INELASTIC_STRETCH_PS2 = moving(
     "ξ_PS2",
     r"\xi_{PS2}",
     "inelastic stretch of the dashpot along the held axis",
+    Role.INELASTIC_STRETCH,
 )
 HELD_STRETCH = quantity(
-    "lambda_2p", "held_stretch", "λ_2p", r"\lambda_{2p}", "1", "stretch at which axis 2 is held"
+    "lambda_2p",
+    "held_stretch",
+    "λ_2p",
+    r"\lambda_{2p}",
+    "1",
+    "stretch at which axis 2 is held",
+    Role.HELD_STRETCH,
 )
 
 # What equations are equal to
 KINETIC_ENERGY = quantity(
-    "T", "kinetic_energy", "T", "T", "J", "kinetic energy of the membrane", positive=False
+    "T", "kinetic_energy", "T", "T", "J", "kinetic energy of the membrane", Role.ENERGY, positive=False
 )
 POTENTIAL_ENERGY = quantity(
-    "Pi", "potential_energy", "Π", r"\Pi", "J", "potential of springs, forces and field", positive=False
+    "Pi",
+    "potential_energy",
+    "Π",
+    r"\Pi",
+    "J",
+    "potential of springs, forces and field",
+    Role.ENERGY,
+    positive=False,
 )
 
 _CONSTANTS_AND_INPUTS = (
