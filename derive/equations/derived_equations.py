@@ -8,11 +8,11 @@ from itertools import product
 
 import sympy as sp
 
+from delagrange.common.dimension import Dimension
 from delagrange.derive.equations.euler_lagrange import EquationsOfMotion
 from delagrange.derive.equations.reactions import at_rest
 from delagrange.derive.notation import symbols as s
 from delagrange.derive.notation.dimensions import (
-    Dimension,
     DimensionError,
     TermDimension,
     check_terms,

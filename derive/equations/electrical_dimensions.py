@@ -6,8 +6,9 @@ from collections.abc import Iterator, Mapping
 
 import sympy as sp
 
+from delagrange.common.dimension import Dimension
 from delagrange.derive.equations.euler_lagrange import EquationsOfMotion
-from delagrange.derive.notation.dimensions import Dimension, DimensionError, check_terms, symbol_dimensions
+from delagrange.derive.notation.dimensions import DimensionError, check_terms, symbol_dimensions
 
 
 def check_electrical_dimensions(eom: EquationsOfMotion) -> int:

@@ -8,8 +8,9 @@ import sympy as sp
 from sympy.core.function import Application
 
 from delagrange.common.checks import did_you_mean
+from delagrange.common.dimension import Dimension
 from delagrange.derive.membrane.strain_energy import StrainEnergy, Stretches, rest_stresses
-from delagrange.derive.notation.dimensions import Dimension, DimensionError, dimension_of
+from delagrange.derive.notation.dimensions import DimensionError, dimension_of
 from delagrange.derive.notation.printer import NUMPY_FUNCTIONS
 from delagrange.derive.notation.symbols import Quantity
 

@@ -48,6 +48,7 @@ from pathlib import Path
 
 import sympy as sp
 
+from delagrange.common.dimension import Dimension
 from delagrange.common.units import shown, with_unit
 from delagrange.derive.membrane.description import CHARGE, EQUAL_BIAXIAL, VOLTAGE
 from delagrange.derive.membrane.load_cases import EMITTED
@@ -75,7 +76,7 @@ from delagrange.derive.model_file.springs import (
     read_spring,
 )
 from delagrange.derive.model_file.toml_table import Table, read_toml
-from delagrange.derive.notation.dimensions import Dimension, dimension_of
+from delagrange.derive.notation.dimensions import dimension_of
 
 MOST_BRANCHES = 9  # more would make the names of inelastic stretches ambiguous
 _NAME = re.compile("[a-z][a-z0-9_]{0,39}")

@@ -25,6 +25,7 @@ from collections.abc import Mapping
 
 import sympy as sp
 
+from delagrange.common.dimension import Dimension
 from delagrange.common.units import shown
 from delagrange.derive.membrane.description import BIAXIAL, EQUAL_BIAXIAL, PURE_SHEAR, RELATION, UNIAXIAL
 from delagrange.derive.model_file.entries import Constant, LoadEntry, RelationEntry
@@ -33,7 +34,7 @@ from delagrange.derive.model_file.number_at import number_at
 from delagrange.derive.model_file.relation_coordinate import is_positive, symbols_of
 from delagrange.derive.model_file.springs import constants, formula
 from delagrange.derive.model_file.toml_table import Table
-from delagrange.derive.notation.dimensions import Dimension, dimension_of
+from delagrange.derive.notation.dimensions import dimension_of
 
 _KEYS = {
     EQUAL_BIAXIAL: (),

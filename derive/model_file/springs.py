@@ -8,6 +8,7 @@ from math import isnan, prod
 
 import sympy as sp
 
+from delagrange.common.quantity_text import read_with_unit
 from delagrange.common.units import shown, with_unit
 from delagrange.derive.membrane import materials
 from delagrange.derive.membrane.materials import ALPHA, MATERIALS, ParameterKind, Spring
@@ -17,7 +18,6 @@ from delagrange.derive.model_file.entries import Constant, MaterialSpring, OwnSp
 from delagrange.derive.model_file.expression import FUNCTIONS, read_expression
 from delagrange.derive.model_file.expression_tokens import ExpressionError
 from delagrange.derive.model_file.number_at import number_at
-from delagrange.derive.model_file.quantity_text import read_with_unit
 from delagrange.derive.model_file.toml_table import Table
 from delagrange.derive.notation.symbols import Quantity
 

@@ -13,8 +13,8 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 from delagrange.common.checks import did_you_mean
+from delagrange.common.quantity_text import read_quantity
 from delagrange.common.units import shown, with_unit
-from delagrange.derive.model_file.quantity_text import read_quantity
 
 Keys = tuple[str | int, ...]  # ("branch", 1, "viscosity"): the array's second table
 

@@ -9,7 +9,8 @@ from typing import TypeAlias
 
 import sympy as sp
 
-from delagrange.derive.notation.dimensions import Dimension, most_common
+from delagrange.common.dimension import Dimension
+from delagrange.derive.notation.dimensions import most_common
 from delagrange.derive.printed.tokens import Span
 from delagrange.derive.printed.tree import (
     Equation,

@@ -26,13 +26,14 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
 import delagrange as dl
+from delagrange.common.dimension import Dimension
 from delagrange.derive.equations.described import description_equations
 from delagrange.derive.membrane.description import UNIAXIAL
 from delagrange.derive.model_file.file import read_model_file
 from delagrange.derive.model_file.toml_table import ModelError
 from delagrange.derive.notation import more_symbols as m
 from delagrange.derive.notation import symbols as s
-from delagrange.derive.notation.dimensions import Dimension, DimensionError
+from delagrange.derive.notation.dimensions import DimensionError
 from delagrange.problem.dashpots import charge_place, coordinate_places, dashpot_places, frozen, rate_places
 from delagrange.problem.problem import make_problem
 

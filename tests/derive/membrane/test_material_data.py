@@ -10,6 +10,7 @@ import sympy as sp
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
+from delagrange.common.dimension import Dimension
 from delagrange.derive.membrane.material_data import (
     ECOFLEX_00_30_OGDEN,
     ECOFLEX_00_30_YEOH,
@@ -23,7 +24,6 @@ from delagrange.derive.membrane.materials import ALPHA, MATERIALS
 from delagrange.derive.membrane.membrane import membrane
 from delagrange.derive.membrane.strain_energy import neo_hookean
 from delagrange.derive.notation import symbols as s
-from delagrange.derive.notation.dimensions import Dimension
 
 SETS = list(MATERIAL_DATA.values())
 STRETCHES = sp.symbols("l_1 l_2 l_3", positive=True)

@@ -9,9 +9,9 @@ import sympy as sp
 from hypothesis import given
 from hypothesis import strategies as st
 
+from delagrange.common.dimension import Dimension
 from delagrange.derive.notation import symbols as sym
 from delagrange.derive.notation.dimensions import (
-    Dimension,
     DimensionError,
     check_terms,
     dimension_of,

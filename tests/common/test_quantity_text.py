@@ -8,7 +8,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from delagrange.derive.model_file.quantity_text import (
+from delagrange.common.dimension import Dimension
+from delagrange.common.quantity_text import (
     PREFIXED,
     PREFIXES,
     Unit,
@@ -16,7 +17,6 @@ from delagrange.derive.model_file.quantity_text import (
     read_quantity,
     read_with_unit,
 )
-from delagrange.derive.notation.dimensions import Dimension
 
 
 @pytest.mark.parametrize(

@@ -11,8 +11,8 @@ from functools import reduce
 from operator import mul
 from types import MappingProxyType
 
+from delagrange.common.dimension import Dimension
 from delagrange.common.units import shown, unit_name
-from delagrange.derive.notation.dimensions import Dimension
 
 PREFIXES: Mapping[str, Fraction] = MappingProxyType(
     {
@@ -22,7 +22,8 @@ PREFIXES: Mapping[str, Fraction] = MappingProxyType(
         "f": Fraction(1, 10**15),
     }
 )  # fmt: skip
-PREFIXED = ("m", "s", "A", "Hz", "N", "Pa", "J", "W", "C", "V", "F", "S", "g")  # units that take a prefix
+# units that take a prefix
+PREFIXED = ("m", "s", "A", "Hz", "N", "Pa", "J", "W", "C", "V", "F", "S", "g", "rad")
 _NUMBER = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,3})?")
 _LONGEST = 80  # characters of a value with its unit
 
@@ -105,6 +106,29 @@ def read_quantity(name: str, value: object, unit: str) -> float:
             f"{name} must be a number in {unit_name(unit)} or a text with a unit, got {shown(value)}"
         )
     return _finite(name, value, value, unit)
+
+
+def typed_quantity(name: str, text: str, unit: str) -> float:
+    """A value as typed on a command line: a bare number is in `unit` already, any other carries its own.
+
+    Raises:
+        ValueError: no number, or a unit that is not understood or has another dimension.
+    """
+    try:
+        return float(text)
+    except ValueError:
+        if not _NUMBER.match(text.strip()) or not _is_understood(unit):
+            raise ValueError(f"{name} must be a number in {unit_name(unit)}, got {shown(text)}") from None
+    return read_quantity(name, text, unit)
+
+
+def _is_understood(unit: str) -> bool:
+    """Whether a unit is one of ours: a module that somebody wrote may have any."""
+    try:
+        Dimension.of_unit(unit)
+    except ValueError:
+        return False
+    return True
 
 
 def _from_text(name: str, text: str, unit: str) -> float:
