@@ -49,6 +49,8 @@ class Variable(NamedTuple):
     symbol: str
     unit: str
     meaning: str
+    role: str
+    sign: str  # positive, not_negative or any
 
 
 MODEL = "equal_biaxial"
@@ -56,24 +58,43 @@ LOAD_CASE = "equal_biaxial"
 FORMULATION = "consistent"
 COORDINATE_COUNT = 1
 STATE = (
-    Variable("stretch", "λ_EB", "1", "in-plane stretch"),
-    Variable("stretch_rate", "λ̇_EB", "1/s", "rate of change of the in-plane stretch"),
-    Variable("inelastic_stretch", "ξ_EB", "1", "inelastic stretch of the dashpot"),
+    Variable("stretch", "λ_EB", "1", "in-plane stretch", "stretch", "positive"),
+    Variable("stretch_rate", "λ̇_EB", "1/s", "rate of change of the in-plane stretch", "rate", "any"),
+    Variable(
+        "inelastic_stretch", "ξ_EB", "1", "inelastic stretch of the dashpot",
+        "inelastic_stretch", "positive",
+    ),
 )
 INPUTS = (
-    Variable("force", "P", "N", "force on each loaded edge"),
-    Variable("nominal_electric_field", "E", "V/m", "nominal electric field, voltage over reference thickness"),
+    Variable("force", "P", "N", "force on each loaded edge", "force", "any"),
+    Variable(
+        "nominal_electric_field", "E", "V/m", "nominal electric field, voltage over reference thickness",
+        "electric_field", "any",
+    ),
 )
 PARAMETERS = (
-    Variable("half_length", "L", "m", "half the side of the square membrane in the reference state"),
-    Variable("half_thickness", "H", "m", "half the thickness in the reference state"),
-    Variable("density", "ρ", "kg/m^3", "mass density"),
-    Variable("permittivity", "ε", "F/m", "permittivity"),
-    Variable("shear_modulus_alpha", "μ^α", "Pa", "shear modulus of spring α, the equilibrium spring"),
-    Variable("shear_modulus_beta", "μ^β", "Pa", "shear modulus of spring β, in series with the dashpot"),
-    Variable("viscosity", "η", "Pa s", "viscosity of the dashpot, τ_v μ^β"),
+    Variable(
+        "half_length", "L", "m", "half the side of the square membrane in the reference state",
+        "size", "positive",
+    ),
+    Variable("half_thickness", "H", "m", "half the thickness in the reference state", "size", "positive"),
+    Variable("density", "ρ", "kg/m^3", "mass density", "mass_density", "positive"),
+    Variable("permittivity", "ε", "F/m", "permittivity", "permittivity", "positive"),
+    Variable(
+        "shear_modulus_alpha", "μ^α", "Pa", "shear modulus of spring α, the equilibrium spring",
+        "modulus", "any",
+    ),
+    Variable(
+        "shear_modulus_beta", "μ^β", "Pa", "shear modulus of spring β, in series with the dashpot",
+        "modulus", "any",
+    ),
+    Variable("viscosity", "η", "Pa s", "viscosity of the dashpot, τ_v μ^β", "viscosity", "positive"),
 )
 REACTIONS = ()
+SPRINGS = {  # and the constants of their strain energies
+    "spring α": ("shear_modulus_alpha",),
+    "spring β": ("shear_modulus_beta",),
+}
 
 
 def _stack(shape, *entries):
@@ -91,6 +112,16 @@ def reference_state(parameters):
         Array (3, ...) [the units of STATE].
     """
     return _stack((3,), 1.0, 0.0, 1.0)
+
+
+def shear_moduli_at_rest(parameters):
+    """Shear modulus of each of SPRINGS at rest.
+
+    Returns:
+        Array (2, ...) [Pa].
+    """
+    _, _, _, _, shear_modulus_alpha, shear_modulus_beta, _ = parameters
+    return _stack((2,), shear_modulus_alpha, shear_modulus_beta)
 
 
 def rhs(state, inputs, parameters):

@@ -64,6 +64,8 @@ class Variable(NamedTuple):
     symbol: str
     unit: str
     meaning: str
+    role: str
+    sign: str  # positive, not_negative or any
 
 
 MODEL = "pure_shear_consistent_free"
@@ -71,28 +73,53 @@ LOAD_CASE = "pure_shear"
 FORMULATION = "consistent"
 COORDINATE_COUNT = 1
 STATE = (
-    Variable("stretch", "λ_PS", "1", "stretch along the force"),
-    Variable("stretch_rate", "λ̇_PS", "1/s", "rate of change of the stretch along the force"),
-    Variable("inelastic_stretch", "ξ_PS", "1", "inelastic stretch of the dashpot along the force"),
-    Variable("inelastic_stretch_2", "ξ_PS2", "1", "inelastic stretch of the dashpot along the held axis"),
+    Variable("stretch", "λ_PS", "1", "stretch along the force", "stretch", "positive"),
+    Variable("stretch_rate", "λ̇_PS", "1/s", "rate of change of the stretch along the force", "rate", "any"),
+    Variable(
+        "inelastic_stretch", "ξ_PS", "1", "inelastic stretch of the dashpot along the force",
+        "inelastic_stretch", "positive",
+    ),
+    Variable(
+        "inelastic_stretch_2", "ξ_PS2", "1", "inelastic stretch of the dashpot along the held axis",
+        "inelastic_stretch", "positive",
+    ),
 )
 INPUTS = (
-    Variable("force", "P", "N", "force on each loaded edge"),
-    Variable("nominal_electric_field", "E", "V/m", "nominal electric field, voltage over reference thickness"),
+    Variable("force", "P", "N", "force on each loaded edge", "force", "any"),
+    Variable(
+        "nominal_electric_field", "E", "V/m", "nominal electric field, voltage over reference thickness",
+        "electric_field", "any",
+    ),
 )
 PARAMETERS = (
-    Variable("half_length", "L", "m", "half the side of the square membrane in the reference state"),
-    Variable("half_thickness", "H", "m", "half the thickness in the reference state"),
-    Variable("density", "ρ", "kg/m^3", "mass density"),
-    Variable("permittivity", "ε", "F/m", "permittivity"),
-    Variable("shear_modulus_alpha", "μ^α", "Pa", "shear modulus of spring α, the equilibrium spring"),
-    Variable("shear_modulus_beta", "μ^β", "Pa", "shear modulus of spring β, in series with the dashpot"),
-    Variable("viscosity", "η", "Pa s", "viscosity of the dashpot, τ_v μ^β"),
-    Variable("held_stretch", "λ_2p", "1", "stretch at which axis 2 is held"),
+    Variable(
+        "half_length", "L", "m", "half the side of the square membrane in the reference state",
+        "size", "positive",
+    ),
+    Variable("half_thickness", "H", "m", "half the thickness in the reference state", "size", "positive"),
+    Variable("density", "ρ", "kg/m^3", "mass density", "mass_density", "positive"),
+    Variable("permittivity", "ε", "F/m", "permittivity", "permittivity", "positive"),
+    Variable(
+        "shear_modulus_alpha", "μ^α", "Pa", "shear modulus of spring α, the equilibrium spring",
+        "modulus", "any",
+    ),
+    Variable(
+        "shear_modulus_beta", "μ^β", "Pa", "shear modulus of spring β, in series with the dashpot",
+        "modulus", "any",
+    ),
+    Variable("viscosity", "η", "Pa s", "viscosity of the dashpot, τ_v μ^β", "viscosity", "positive"),
+    Variable("held_stretch", "λ_2p", "1", "stretch at which axis 2 is held", "held_stretch", "positive"),
 )
 REACTIONS = (
-    Variable("reaction_force_2", "P_2p", "N", "force on each edge normal to axis 2 that holds its stretch"),
+    Variable(
+        "reaction_force_2", "P_2p", "N", "force on each edge normal to axis 2 that holds its stretch",
+        "reaction", "any",
+    ),
 )
+SPRINGS = {  # and the constants of their strain energies
+    "spring α": ("shear_modulus_alpha",),
+    "spring β": ("shear_modulus_beta",),
+}
 
 
 def _stack(shape, *entries):
@@ -111,6 +138,16 @@ def reference_state(parameters):
     """
     _, _, _, _, _, _, _, held_stretch = parameters
     return _stack((4,), 1.0, 0.0, 1.0, held_stretch)
+
+
+def shear_moduli_at_rest(parameters):
+    """Shear modulus of each of SPRINGS at rest.
+
+    Returns:
+        Array (2, ...) [Pa].
+    """
+    _, _, _, _, shear_modulus_alpha, shear_modulus_beta, _, _ = parameters
+    return _stack((2,), shear_modulus_alpha, shear_modulus_beta)
 
 
 def rhs(state, inputs, parameters):

@@ -64,6 +64,8 @@ class Variable(NamedTuple):
     symbol: str
     unit: str
     meaning: str
+    role: str
+    sign: str  # positive, not_negative or any
 
 
 MODEL = "uniaxial"
@@ -71,27 +73,55 @@ LOAD_CASE = "uniaxial"
 FORMULATION = "consistent"
 COORDINATE_COUNT = 2
 STATE = (
-    Variable("stretch_1", "λ_UA1", "1", "stretch along the force"),
-    Variable("stretch_2", "λ_UA2", "1", "stretch across the force"),
-    Variable("stretch_rate_1", "λ̇_UA1", "1/s", "rate of change of the stretch along the force"),
-    Variable("stretch_rate_2", "λ̇_UA2", "1/s", "rate of change of the stretch across the force"),
-    Variable("inelastic_stretch_1", "ξ_UA1", "1", "inelastic stretch of the dashpot along the force"),
-    Variable("inelastic_stretch_2", "ξ_UA2", "1", "inelastic stretch of the dashpot across the force"),
+    Variable("stretch_1", "λ_UA1", "1", "stretch along the force", "stretch", "positive"),
+    Variable("stretch_2", "λ_UA2", "1", "stretch across the force", "stretch", "positive"),
+    Variable(
+        "stretch_rate_1", "λ̇_UA1", "1/s", "rate of change of the stretch along the force",
+        "rate", "any",
+    ),
+    Variable(
+        "stretch_rate_2", "λ̇_UA2", "1/s", "rate of change of the stretch across the force",
+        "rate", "any",
+    ),
+    Variable(
+        "inelastic_stretch_1", "ξ_UA1", "1", "inelastic stretch of the dashpot along the force",
+        "inelastic_stretch", "positive",
+    ),
+    Variable(
+        "inelastic_stretch_2", "ξ_UA2", "1", "inelastic stretch of the dashpot across the force",
+        "inelastic_stretch", "positive",
+    ),
 )
 INPUTS = (
-    Variable("force", "P", "N", "force on each loaded edge"),
-    Variable("nominal_electric_field", "E", "V/m", "nominal electric field, voltage over reference thickness"),
+    Variable("force", "P", "N", "force on each loaded edge", "force", "any"),
+    Variable(
+        "nominal_electric_field", "E", "V/m", "nominal electric field, voltage over reference thickness",
+        "electric_field", "any",
+    ),
 )
 PARAMETERS = (
-    Variable("half_length", "L", "m", "half the side of the square membrane in the reference state"),
-    Variable("half_thickness", "H", "m", "half the thickness in the reference state"),
-    Variable("density", "ρ", "kg/m^3", "mass density"),
-    Variable("permittivity", "ε", "F/m", "permittivity"),
-    Variable("shear_modulus_alpha", "μ^α", "Pa", "shear modulus of spring α, the equilibrium spring"),
-    Variable("shear_modulus_beta", "μ^β", "Pa", "shear modulus of spring β, in series with the dashpot"),
-    Variable("viscosity", "η", "Pa s", "viscosity of the dashpot, τ_v μ^β"),
+    Variable(
+        "half_length", "L", "m", "half the side of the square membrane in the reference state",
+        "size", "positive",
+    ),
+    Variable("half_thickness", "H", "m", "half the thickness in the reference state", "size", "positive"),
+    Variable("density", "ρ", "kg/m^3", "mass density", "mass_density", "positive"),
+    Variable("permittivity", "ε", "F/m", "permittivity", "permittivity", "positive"),
+    Variable(
+        "shear_modulus_alpha", "μ^α", "Pa", "shear modulus of spring α, the equilibrium spring",
+        "modulus", "any",
+    ),
+    Variable(
+        "shear_modulus_beta", "μ^β", "Pa", "shear modulus of spring β, in series with the dashpot",
+        "modulus", "any",
+    ),
+    Variable("viscosity", "η", "Pa s", "viscosity of the dashpot, τ_v μ^β", "viscosity", "positive"),
 )
 REACTIONS = ()
+SPRINGS = {  # and the constants of their strain energies
+    "spring α": ("shear_modulus_alpha",),
+    "spring β": ("shear_modulus_beta",),
+}
 
 
 def _stack(shape, *entries):
@@ -109,6 +139,16 @@ def reference_state(parameters):
         Array (6, ...) [the units of STATE].
     """
     return _stack((6,), 1.0, 1.0, 0.0, 0.0, 1.0, 1.0)
+
+
+def shear_moduli_at_rest(parameters):
+    """Shear modulus of each of SPRINGS at rest.
+
+    Returns:
+        Array (2, ...) [Pa].
+    """
+    _, _, _, _, shear_modulus_alpha, shear_modulus_beta, _ = parameters
+    return _stack((2,), shear_modulus_alpha, shear_modulus_beta)
 
 
 def rhs(state, inputs, parameters):

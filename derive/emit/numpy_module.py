@@ -15,7 +15,7 @@ import sympy as sp
 from delagrange.derive.check.verdict import Outcome, Verdict
 from delagrange.derive.emit.code_lines import WIDTH, broken, unpacked
 from delagrange.derive.emit.template import render
-from delagrange.derive.kernel.spec import Assignment, KernelFunction, KernelSpec
+from delagrange.derive.kernel.spec import Assignment, KernelFunction, KernelSpec, SpringAtRest
 from delagrange.derive.notation.printer import NUMPY_FUNCTIONS, ExpressionPrinter, text_printer
 from delagrange.derive.notation.symbols import Quantity
 
@@ -36,15 +36,18 @@ def _arguments(function: KernelFunction, quantities: tuple[Quantity, ...], sourc
 
 
 def _return_lines(function: KernelFunction) -> list[str]:
-    outputs = [_NUMPY(output) for output in function.outputs]
     if not function.shape:
         return broken("return ", function.outputs[0], _NUMPY, "    ")
-    line = f"    return _stack({function.shape!r}, {', '.join(outputs)})"
+    return _stacked_lines(function.shape, [_NUMPY(output) for output in function.outputs])
+
+
+def _stacked_lines(shape: tuple[int, ...], outputs: list[str]) -> list[str]:
+    line = f"    return _stack({shape!r}, {', '.join(outputs)})"
     if len(line) <= WIDTH:
         return [line]
     return [
         "    return _stack(",
-        f"        {function.shape!r},",
+        f"        {shape!r},",
         *(f"        {output}," for output in outputs),
         "    )",
     ]
@@ -74,6 +77,7 @@ def _function_view(function: KernelFunction, spec: KernelSpec) -> dict[str, Any]
     ]
     return {
         "name": function.name,
+        "arguments": "state, inputs, parameters",
         "summary": function.summary,
         "returns": f"Array {_shape_text(function.shape)} [{function.unit}].",
         "body": "\n".join(body),
@@ -115,14 +119,59 @@ def _as_float(value: sp.Expr) -> str:
     return f"{value}.0" if value.is_Integer else _NUMPY(value)
 
 
-def _reference_names(spec: KernelSpec) -> list[str]:
-    used = {symbol.name for value in spec.reference_state for symbol in value.free_symbols}
-    return [quantity.name if quantity.name in used else "_" for quantity in spec.parameters]
+def _of_parameters(
+    spec: KernelSpec, name: str, summary: str, unit: str, outputs: tuple[sp.Expr, ...]
+) -> dict[str, str]:
+    """A function of the parameters alone."""
+    used = {symbol.name for output in outputs for symbol in output.free_symbols}
+    names = [quantity.name if quantity.name in used else "_" for quantity in spec.parameters]
+    shape = (len(outputs),)
+    return {
+        "name": name,
+        "arguments": "parameters",
+        "summary": summary,
+        "returns": f"Array {_shape_text(shape)} [{unit}].",
+        "body": "\n".join(
+            [
+                *(unpacked(names, "parameters") if used else ()),
+                *_stacked_lines(shape, [_as_float(output) for output in outputs]),
+            ]
+        ),
+    }
+
+
+def _at_rest(spec: KernelSpec) -> list[dict[str, str]]:
+    """What is so at rest: the state in which a run begins, and how stiff the springs are."""
+    start = _of_parameters(
+        spec, "reference_state", _start_text(spec), "the units of STATE", spec.reference_state
+    )
+    moduli = tuple(spring.shear_modulus for spring in spec.springs)
+    text = "Shear modulus of each of SPRINGS at rest."
+    return [start, *([_of_parameters(spec, "shear_moduli_at_rest", text, "Pa", moduli)] if moduli else [])]
+
+
+def _variables(quantities: tuple[Quantity, ...]) -> str:
+    return "\n".join(line for quantity in quantities for line in _variable_lines(quantity))
+
+
+def _variable_lines(quantity: Quantity) -> list[str]:
+    """One line, or two within brackets where it would be too long."""
+    told = f'"{quantity.name}", "{quantity.text}", "{quantity.unit}", "{quantity.meaning}"'
+    facts = f'"{quantity.role}", "{quantity.sign}"'
+    line = f"    Variable({told}, {facts}),"
+    if len(line) <= WIDTH:
+        return [line]
+    return ["    Variable(", f"        {told},", f"        {facts},", "    ),"]
+
+
+def _spring_line(spring: SpringAtRest) -> str:
+    constants = "".join(f'"{name}", ' for name in spring.constants).rstrip()
+    return f'    "{spring.name}": ({constants if len(spring.constants) == 1 else constants.rstrip(",")}),'
 
 
 def _view(spec: KernelSpec) -> dict[str, Any]:
     """Everything that the template places, ready as text."""
-    names, printer = _reference_names(spec), text_printer(spec.quantities)
+    printer = text_printer(spec.quantities)
     return {
         "command": spec.origin.command,
         "body": spec.origin.body,
@@ -130,7 +179,6 @@ def _view(spec: KernelSpec) -> dict[str, Any]:
         "sources": "\n".join(_source_line(source) for source in spec.origin.sources),
         "has_defaults": spec.defaults is not None,
         "defaults": "\n".join(_default_lines(spec.defaults or {})),
-        "start": _start_text(spec),
         "title": spec.title,
         "name": spec.name,
         "load_case": spec.load_case,
@@ -148,14 +196,12 @@ def _view(spec: KernelSpec) -> dict[str, Any]:
         "digest": spec.digest,
         "sympy_version": sp.__version__,
         "coordinate_count": spec.coordinate_count,
-        "state": spec.state,
-        "inputs": spec.inputs,
-        "parameters": spec.parameters,
-        "reactions": spec.reactions,
-        "functions": [_function_view(function, spec) for function in spec.functions],
-        "reference_lines": "\n".join([] if set(names) <= {"_"} else unpacked(names, "parameters")),
-        "reference_state": ", ".join(_as_float(value) for value in spec.reference_state),
-        "state_size": len(spec.state),
+        "state": _variables(spec.state),
+        "inputs": _variables(spec.inputs),
+        "parameters": _variables(spec.parameters),
+        "reactions": _variables(spec.reactions),
+        "springs": "\n".join(_spring_line(spring) for spring in spec.springs),
+        "functions": [*_at_rest(spec), *(_function_view(function, spec) for function in spec.functions)],
     }
 
 

@@ -13,7 +13,7 @@ from delagrange.derive.kernel.variational_spec import variational_spec
 
 _NAMES_IN_CODE = (  # beside the values and functions of a module: what its functions and kernels are written with
     "state", "inputs", "parameters", "np", "numba", "work", "rows", "out", "k", "columns", "frame", "sources", "vector",
-    "rates", "reference_state", "volume", "least", "most",
+    "rates", "reference_state", "shear_moduli_at_rest", "volume", "least", "most",
 )  # fmt: skip
 _NUMBERED_IN_CODE = re.compile("(constant|factor|product|reciprocal|shared|room)(_[0-9]+)?")
 

@@ -15,7 +15,7 @@ from delagrange.derive.kernel.electrode_functions import charge_assignments, cha
 from delagrange.derive.kernel.energy_functions import dashpot_power, potential, validity
 from delagrange.derive.kernel.formulas import digest, governing_equations
 from delagrange.derive.kernel.function import kernel_function
-from delagrange.derive.kernel.reference_state import reference_state
+from delagrange.derive.kernel.reference_state import reference_state, springs_at_rest
 from delagrange.derive.kernel.spec import PAPER, Assignment, KernelFunction, KernelSpec, Origin
 
 
@@ -285,4 +285,5 @@ def kernel(
         quantities=eom.quantities,
         origin=origin,
         defaults=defaults,
+        springs=springs_at_rest(eom),
     )

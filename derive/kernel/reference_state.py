@@ -1,4 +1,4 @@
-"""The state in which a model begins, by the parameters of the model."""
+"""What is so at rest, by the parameters of the model: the state in which it begins, and how stiff its springs are."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import sympy as sp
 
 from delagrange.derive.equations.euler_lagrange import EquationsOfMotion
 from delagrange.derive.kernel.function import named
+from delagrange.derive.kernel.spec import SpringAtRest
 
 
 def reference_state(eom: EquationsOfMotion) -> tuple[sp.Expr, ...]:
@@ -24,3 +25,15 @@ def reference_state(eom: EquationsOfMotion) -> tuple[sp.Expr, ...]:
     flowing = (relaxed[internal.value.symbol] for internal in load_case.internals)
     values = (*begin, *[sp.Integer(0)] * n, *flowing, *uncharged)
     return tuple(named(value, eom.quantities) for value in values)
+
+
+def springs_at_rest(eom: EquationsOfMotion) -> tuple[SpringAtRest, ...]:
+    """Every spring with its shear modulus at rest, which must be positive for it to be one."""
+    return tuple(
+        SpringAtRest(
+            name,
+            tuple(parameter.name for parameter in energy.parameters),
+            named(energy.shear_modulus, eom.quantities),
+        )
+        for name, energy in eom.membrane.springs
+    )

@@ -43,6 +43,15 @@ class KernelFunction:
 
 
 @dataclass(frozen=True)
+class SpringAtRest:
+    """A spring, the constants of its strain energy, and the shear modulus [Pa] that they make at rest."""
+
+    name: str
+    constants: tuple[str, ...]
+    shear_modulus: sp.Expr
+
+
+@dataclass(frozen=True)
 class Origin:
     """What a module says of where it comes from."""
 
@@ -82,3 +91,4 @@ class KernelSpec:
     quantities: tuple[Quantity, ...] = QUANTITIES  # all that the formulas are written in
     origin: Origin = PAPER
     defaults: Mapping[str, float] | None = None  # values of parameters by name; None: the module has none
+    springs: tuple[SpringAtRest, ...] = ()

@@ -67,6 +67,7 @@ class Membrane:
     forces: tuple[Quantity, ...]  # P_1, P_2
     field: Quantity  # what drives the electrodes: E, the nominal charge density, or the current with leakage
     parameters: tuple[Quantity, ...]
+    springs: tuple[tuple[str, StrainEnergy], ...]  # what each is called, in parallel and in the branches
     principal_stretches: Stretches
     volume: sp.Expr  # of the body [m^3]
     kinetic_energy: sp.Expr  # T [J]
@@ -203,6 +204,7 @@ def described_membrane(description: Description) -> Membrane:
         forces=FORCES,
         field=input_of(description.dielectric),
         parameters=parameters_of(description),
+        springs=tuple(zip(_spring_names(description), _strain_energies(description), strict=True)),
         principal_stretches=stretches,
         volume=volume,
         kinetic_energy=kinetic_energy(place, body) + attached,
@@ -231,22 +233,33 @@ def parameters_of(description: Description) -> tuple[Quantity, ...]:
     return tuple(dict.fromkeys([*listed, *(quantity for quantity in optional if quantity is not None)]))
 
 
-def _elastic_of_branches(description: Description, stretches: Stretches) -> tuple[Stretches, ...]:
-    pairs = branch_internals(len(description.branches))
-    return tuple(elastic_stretches(stretches, pair) for pair in pairs[: len(description.branches)])
+def _strain_energies(description: Description) -> tuple[StrainEnergy, ...]:
+    return (description.equilibrium_spring, *(branch.energy for branch in description.branches))
+
+
+def _spring_names(description: Description) -> tuple[str, ...]:
+    count = len(description.branches)
+    numbers = [f" of branch {number}" if count > 1 else "" for number in range(1, count + 1)]
+    return ("spring α", *(f"spring β{which}" for which in numbers))
+
+
+def _strained(description: Description, stretches: Stretches) -> tuple[tuple[StrainEnergy, Stretches], ...]:
+    """Each spring with the stretches that it has: all of the membrane's, or the elastic ones of its branch."""
+    count = len(description.branches)
+    elastic = (elastic_stretches(stretches, pair) for pair in branch_internals(count)[:count])
+    return tuple(zip(_strain_energies(description), (stretches, *elastic), strict=True))
 
 
 def _energies(description: Description, stretches: Stretches, volume: sp.Expr) -> Energies:
     """The parts of the potential [J], in the order in which Eq. (4) lists them."""
-    alpha = description.equilibrium_spring.density(stretches)
-    parts = [EnergyPart("spring_alpha", "spring α", volume * alpha)]
     count = len(description.branches)
-    elastic = _elastic_of_branches(description, stretches)
-    for number, (branch, stretch) in enumerate(zip(description.branches, elastic, strict=True), start=1):
-        tail, which = (f"_{number}", f" of branch {number}") if count > 1 else ("", "")
-        parts.append(
-            EnergyPart(f"spring_beta{tail}", f"spring β{which}", volume * branch.energy.density(stretch))
-        )
+    numbers = [f"_{number}" if count > 1 else "" for number in range(1, count + 1)]
+    keys = ("spring_alpha", *(f"spring_beta{number}" for number in numbers))
+    densities = (energy.density(at) for energy, at in _strained(description, stretches))
+    parts = [
+        EnergyPart(key, name, volume * density)
+        for key, name, density in zip(keys, _spring_names(description), densities, strict=True)
+    ]
     place = motion(stretches)
     parts.append(EnergyPart("forces", "the applied forces", work_of_forces(place, description.body)))
     density = electrostatic_energy_density(stretches, description.dielectric)
@@ -268,6 +281,5 @@ def _rayleigh(description: Description, stretches: Stretches, volume: sp.Expr) -
 
 
 def _validity(description: Description, stretches: Stretches) -> tuple[sp.Expr, ...]:
-    branches = zip(description.branches, _elastic_of_branches(description, stretches), strict=True)
-    springs = [(description.equilibrium_spring, stretches), *((b.energy, elastic) for b, elastic in branches)]
+    springs = _strained(description, stretches)
     return tuple(energy.validity(at) for energy, at in springs if energy.validity is not None)

@@ -46,7 +46,7 @@ class StrainEnergy:
         """Shear modulus at rest [Pa] in the plane: a quarter of d^2W/dlambda^2 at (lambda, 1/lambda, 1), lambda = 1."""
         stretch = sp.Symbol("stretch_a", positive=True)
         sheared = self.density((stretch, 1 / stretch, sp.Integer(1)))
-        return sp.simplify(sheared.diff(stretch, 2).subs(stretch, 1) / 4)
+        return sp.factor_terms(sheared.diff(stretch, 2).subs(stretch, 1) / 4)
 
 
 def rest_stresses(energy: StrainEnergy) -> Stretches:

@@ -254,9 +254,7 @@ def modulus_at_rest(entry: SpringEntry) -> float:
     """Shear modulus of a spring at rest [Pa], with its values put in."""
     energy, values = energy_of(entry, ALPHA), values_of(entry, ALPHA)
     at = {quantity.symbol: sp.Float(values[quantity.name], 30) for quantity in energy.parameters}
-    stretch = sp.Symbol("stretch_a", positive=True)
-    sheared = energy.density((stretch, 1 / stretch, sp.Integer(1)))
-    return float(sp.N(sheared.diff(stretch, 2).subs({**at, stretch: 1}) / 4))
+    return float(sp.N(energy.shear_modulus.subs(at)))
 
 
 def _check_modulus(table: Table, entry: SpringEntry, key: str) -> None:
