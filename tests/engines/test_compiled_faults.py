@@ -283,9 +283,10 @@ def test_a_kernel_in_an_archive_runs_without_any_folder(tmp_path):
 # --- from the keyboard -------------------------------------------------------------------------------
 
 TELLING = """
-import sys, time
-from delagrange import compiled
+import signal, sys, time
 from delagrange.cli import main
+from delagrange.engines import compiled
+signal.signal(signal.SIGINT, signal.default_int_handler)  # ignored where these tests were started in the background
 run = compiled._run_on_threads
 def told(*given):
     print("running", flush=True)
@@ -306,15 +307,15 @@ def test_control_c_ends_a_long_sweep_at_once_and_keeps_what_was_finished(tmp_pat
         sys.executable, "-c", TELLING, "sweep", "equal-biaxial", "--field-amplitude", "5e7,1e6",
         "--frequency", "300:500:1", "--duration", "10000", "--out", str(out),
     ]  # fmt: skip
-    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-    try:
-        assert process.stdout.readline() == "running\n"
-        time.sleep(1.0)
-        sent = time.monotonic()
-        process.send_signal(signal.SIGINT)
-        output, errors = process.communicate(timeout=20)
-    finally:
-        process.kill()
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+        try:
+            assert process.stdout.readline() == "running\n"
+            time.sleep(1.0)
+            sent = time.monotonic()
+            process.send_signal(signal.SIGINT)
+            output, errors = process.communicate(timeout=20)
+        finally:
+            process.kill()
     ended = float(output.splitlines()[0].removeprefix("ended "))
     assert 0 <= ended - sent < 1.0
     assert process.returncode == 130

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import _thread
+import signal
 import threading
 from dataclasses import replace
 
@@ -191,7 +192,15 @@ def test_survives_the_disk(tmp_path):
             assert data.attrs["units"] and data.attrs["long_name"]
 
 
-def test_interrupted_from_the_keyboard_what_is_done_stays():
+@pytest.fixture
+def keyboard():
+    """Ctrl-C interrupts, also where these tests were started in the background, which ignores it."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+def test_interrupted_from_the_keyboard_what_is_done_stays(keyboard):
     frequency = np.linspace(100.0, 800.0, 20_000)
     timer = threading.Timer(0.7, _thread.interrupt_main)
     timer.start()
