@@ -53,7 +53,7 @@ test: $(VENV)/.tested lint check-generated
 	$(BIN)/python -m pytest --numprocesses auto
 
 test-matrix: $(VENV)/.tested
-	$(BIN)/python -m pytest --numprocesses auto -m matrix
+	$(BIN)/python -m pytest --numprocesses auto tests/matrix/whole_matrix.py
 
 lint: $(VENV)/.tested
 	$(BIN)/ruff check .

@@ -13,6 +13,7 @@ from delagrange.derive.equations.euler_lagrange import EquationsOfMotion
 from delagrange.derive.membrane.load_cases import BIAXIAL, EMITTED, LoadCase
 from delagrange.derive.membrane.membrane import Membrane
 
+pytest.register_assert_rewrite("every_membrane")
 settings.register_profile(
     "delagrange", deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow]
 )
