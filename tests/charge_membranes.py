@@ -1,4 +1,4 @@
-"""Membranes from model files for the tests of charge control and of relations: derived, emitted, loaded."""
+"""Membranes from model files for the tests of charge control and of relations: derived, emitted, loaded, and kept."""
 
 from __future__ import annotations
 
@@ -6,13 +6,10 @@ from dataclasses import replace
 from pathlib import Path
 from types import ModuleType
 
-import delagrange as dl
-from delagrange.derive.emit.numpy_module import emit
+from emitted_once import described_in, loaded
+
 from delagrange.derive.membrane.description import RELATION, Load, Relation
-from delagrange.derive.model_file.describe import describe
-from delagrange.derive.model_file.file import read_model_file
 from delagrange.derive.notation.symbols import TimeDependent, moving, quantity
-from delagrange.derive.pipeline import derive_description, description_spec
 
 MU, EPSILON, DENSITY = 6.0e4, 6.198e-11, 1.2e3  # [Pa], [F/m], [kg/m^3]
 LENGTH, THICKNESS = 5e-3, 1e-3  # half of both [m]
@@ -72,17 +69,12 @@ density = {DENSITY}
 def derived(
     folder: Path, name: str, kernels: bool = False, relation: Relation | None = None, **parts: str
 ) -> ModuleType:
-    """The model of such a file, in a folder that is made; with its compiled kernels, or without.
+    """The model of such a file, which is written to a folder that is made; with its compiled kernels, or without.
 
     relation: takes the place of the load of the file
     """
     folder.mkdir(parents=True, exist_ok=True)
-    file = folder / f"{name}.toml"
-    file.write_text(model_text(name, **parts), encoding="utf-8")
-    described = describe(read_model_file(file))
+    described = described_in(folder, name, model_text(name, **parts))
     if relation is not None:
         described = replace(described, load=Load(RELATION, relation=relation))
-    texts = derive_description(described) if kernels else ((f"{name}.py", emit(description_spec(described))),)
-    for module, text in texts:
-        (folder / module).write_text(text, encoding="utf-8")
-    return dl.load(folder / f"{name}.py")
+    return loaded(described, kernels)

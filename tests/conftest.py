@@ -1,17 +1,22 @@
-"""Shared by the tests: each derivation is made once a session."""
+"""Shared by the tests: the paper's membranes, derived once for all workers."""
 
 from __future__ import annotations
 
+import os
+import pickle
+import subprocess
+import sys
 from functools import cache
 
 import numpy as np
 import pytest
 from hypothesis import HealthCheck, settings
+from kept import FOLDER, forget_old, kept, locked
 
-from delagrange.derive import pipeline
 from delagrange.derive.equations.euler_lagrange import EquationsOfMotion
 from delagrange.derive.membrane.load_cases import BIAXIAL, EMITTED, LoadCase
-from delagrange.derive.membrane.membrane import Membrane
+from delagrange.derive.pipeline import Derivation
+from delagrange.model import kernels
 
 pytest.register_assert_rewrite("every_membrane")
 settings.register_profile(
@@ -19,23 +24,57 @@ settings.register_profile(
 )
 settings.load_profile("delagrange")
 
+HASH_SEED = "4711"
 CASES = {case.name: case for case in (BIAXIAL, *EMITTED)}
 
 
 @cache
-def paper_membrane() -> Membrane:
-    return pipeline.paper_membrane()
+def walk() -> Derivation:
+    """The whole road, walked once for all workers under a hash seed of its own, and kept."""
+    return kept("walk", HASH_SEED, lambda: walked_under(HASH_SEED))
 
 
-@cache
+def walked_under(hash_seed: str) -> Derivation:
+    """The whole road, walked by another process."""
+    code = "import pickle, sys; from delagrange.derive import pipeline; pickle.dump(pipeline.walk(), sys.stdout.buffer)"
+    environment = {**os.environ, "PYTHONHASHSEED": hash_seed}
+    done = subprocess.run([sys.executable, "-c", code], env=environment, stdout=subprocess.PIPE, check=True)
+    return pickle.loads(done.stdout)
+
+
 def derived(name: str) -> EquationsOfMotion:
-    return pipeline.derive(paper_membrane(), CASES[name])
+    """Of the paper's membrane in a load case."""
+    return next(eom for eom in walk().models if eom.load_case == CASES[name])
+
+
+@pytest.fixture(scope="session")
+def walked() -> Derivation:
+    return walk()
 
 
 @pytest.fixture(scope="session")
 def equations():
-    """`equations("uniaxial")` -> EquationsOfMotion of that load case, derived once."""
+    """`equations("uniaxial")` -> EquationsOfMotion of that load case."""
     return derived
+
+
+@pytest.fixture(scope="session", autouse=True)
+def compiled_once():
+    """A worker waits for a kernel that another one compiles, and finds it then on disk."""
+    compile_kernel = kernels._compile
+
+    def one_at_a_time(kernel):
+        with locked(FOLDER / "compiling" / kernel.__name__):
+            return compile_kernel(kernel)
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(kernels, "_compile", one_at_a_time)
+        yield
+
+
+def pytest_sessionfinish(session: pytest.Session) -> None:
+    if not hasattr(session.config, "workerinput"):
+        forget_old()
 
 
 @pytest.fixture(scope="session")

@@ -6,9 +6,9 @@ from types import ModuleType
 
 import numpy as np
 import sympy as sp
+from emitted_once import numpy_module
+from kept import digest
 
-from delagrange.derive.emit.numpy_module import emit
-from delagrange.derive.kernel.spec import KernelSpec
 from delagrange.derive.membrane.description import (
     Body,
     Description,
@@ -22,7 +22,6 @@ from delagrange.derive.membrane.materials import ALPHA, MATERIALS, branch
 from delagrange.derive.notation import more_symbols as m
 from delagrange.derive.notation import symbols as s
 from delagrange.derive.notation.symbols import Quantity, quantity
-from delagrange.derive.pipeline import description_spec
 
 VALUES = {
     "half_length": 0.1, "half_length_1": 0.1, "half_length_2": 0.06, "half_thickness": 5e-4, "density": 1.2e3,
@@ -81,22 +80,15 @@ SOFTENING = Permittivity(
         s.PERMITTIVITY.symbol * (1 + ELECTROSTRICTION.symbol * (stretches[0] + stretches[1] - 2))
     ),
 )
-_MODULES: dict[str, tuple[Description, ModuleType]] = {}  # a description kept alive keeps its text unique
-
-
-def module_of(spec: KernelSpec) -> ModuleType:
-    """The emitted NumPy module, imported."""
-    module = ModuleType(spec.name)
-    exec(compile(emit(spec), f"<{spec.title}>", "exec"), module.__dict__)
-    return module
+_MODULES: dict[str, ModuleType] = {}  # by the digest of the description
 
 
 def emitted(description: Description) -> ModuleType:
     """The emitted NumPy module of a description."""
-    key = repr(description)
+    key = digest(description)
     if key not in _MODULES:
-        _MODULES[key] = description, module_of(description_spec(description))
-    return _MODULES[key][1]
+        _MODULES[key] = numpy_module(description)
+    return _MODULES[key]
 
 
 def parameters_of(module: ModuleType, **changed: float) -> list[float]:

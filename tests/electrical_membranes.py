@@ -7,8 +7,8 @@ from types import ModuleType
 
 import numpy as np
 import sympy as sp
+from emitted_once import numpy_module
 
-from delagrange.derive.emit.numpy_module import emit
 from delagrange.derive.membrane.description import (
     CHARGE,
     EQUAL_BIAXIAL,
@@ -28,7 +28,6 @@ from delagrange.derive.membrane.materials import ALPHA, MATERIALS, branch
 from delagrange.derive.notation import more_symbols as m
 from delagrange.derive.notation import symbols as s
 from delagrange.derive.notation.symbols import Quantity, quantity
-from delagrange.derive.pipeline import description_spec
 
 ELECTROSTRICTION = quantity("b", "electrostriction", "b", "b", "1", "of the permittivity", positive=False)
 SOFTENING = Permittivity(
@@ -97,9 +96,7 @@ def described(
 @cache
 def emitted(driven: str, kind: str = EQUAL_BIAXIAL, permittivity: str = "constant") -> ModuleType:
     """The NumPy module of a membrane, with `VALUES` as its defaults."""
-    spec = description_spec(described(driven, kind, permittivity))
-    module = ModuleType(f"{driven}_{kind}_{permittivity}")
-    exec(compile(emit(spec), module.__name__, "exec"), module.__dict__)
+    module = numpy_module(described(driven, kind, permittivity))
     module.DEFAULTS = dict(zip((entry.name for entry in module.PARAMETERS), parameters_of(module)))
     return module
 

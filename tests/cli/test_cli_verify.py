@@ -22,16 +22,15 @@ from delagrange.derive.check.verdict import Outcome
 
 
 @pytest.fixture(scope="module")
-def derived(tmp_path_factory):
-    """One real `delagrange derive`: its folder, what it printed, and what it had walked."""
-    folder, printed, walks = tmp_path_factory.mktemp("modules"), io.StringIO(), []
-    walk = pipeline.walk
+def derived(walked, tmp_path_factory):
+    """One `delagrange derive`: its folder, what it printed, and what it had walked."""
+    folder, printed = tmp_path_factory.mktemp("modules"), io.StringIO()
     with pytest.MonkeyPatch.context() as patch, contextlib.redirect_stdout(printed):
         patch.setenv("COLUMNS", "80")
-        patch.setattr(pipeline, "walk", lambda: walks.append(walk()) or walks[0])
+        patch.setattr(pipeline, "walk", lambda: walked)
         code = main(["derive", "--out", str(folder), "--quiet"])
     assert code == 0
-    return folder, printed.getvalue(), walks[0]
+    return folder, printed.getvalue(), walked
 
 
 @pytest.fixture

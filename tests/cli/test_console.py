@@ -21,7 +21,6 @@ def test_brackets_are_no_markup(capsys, text):
 
 
 def test_a_table_over_a_parameter_has_its_unit(tmp_path, capsys):
-    derived(tmp_path, "weighted", control=VOLTAGE, more='[[attachment]]\nmass = "0.1 g"\nstiffness = 2.0\n')
-    weighted = str(tmp_path / "weighted.py")
-    assert main(["modes", weighted, "--force", "0.1", "--parameter", "edge_mass=1e-4,2e-4"]) == 0
+    weighted = derived(tmp_path, "weighted", control=VOLTAGE, more='[[attachment]]\nmass = "0.1 g"\nstiffness = 2.0\n')
+    assert main(["modes", weighted.__file__, "--force", "0.1", "--parameter", "edge_mass=1e-4,2e-4"]) == 0
     assert "edge_mass [kg]" in capsys.readouterr().out

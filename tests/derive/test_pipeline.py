@@ -15,11 +15,6 @@ from delagrange.derive.papers.sheng_2015.equations import SHENG_2015
 from delagrange.derive.printed.latex import read_equation
 
 
-@pytest.fixture(scope="module")
-def walked():
-    return pipeline.walk()
-
-
 @pytest.fixture
 def prepared(walked, tmp_path, monkeypatch):
     """The driver with the walk made once, and a record of its own: what was just found."""
@@ -62,8 +57,16 @@ def test_the_walk_covers_every_model_once(walked):
     assert {verdict.model for verdict in walked.verdicts} == {eom.load_case.name for eom in walked.models}
 
 
-def test_the_check_finds_the_verdicts_of_the_walk(walked):
+def test_the_check_finds_the_verdicts_of_the_walk(walked, monkeypatch):
+    monkeypatch.setattr(pipeline, "derive_all", lambda: walked.models)
     assert pipeline.check() == walked.verdicts
+
+
+def test_what_is_checked_in_is_what_the_walk_gives(walked, monkeypatch, capsys):
+    """All modules byte for byte, and all verdicts, as `make check-generated` compares them."""
+    monkeypatch.setattr(pipeline, "walk", lambda: walked)
+    assert driver.main(["--check"]) == 0
+    assert capsys.readouterr().err == ""
 
 
 def test_what_is_written_passes_the_check(prepared, folder, walked, capsys):

@@ -6,14 +6,12 @@ import numpy as np
 import pytest
 from charge_membranes import VOLTAGE, derived
 from electrical_membranes import LEAKY_FILE
+from emitted_once import described_in, loaded
 from hypothesis import given
 from hypothesis import strategies as st
 
 import delagrange as dl
 from delagrange.analysis.steady.shooting import Shooting
-from delagrange.derive.model_file.describe import describe
-from delagrange.derive.model_file.file import read_model_file
-from delagrange.derive.pipeline import derive_description
 from delagrange.engines.flow import FlowPath, typical_sizes
 from delagrange.engines.flow_compiled import flow_compiled
 from delagrange.engines.flow_scipy import flow_by_scipy
@@ -37,11 +35,7 @@ def stiffening(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def leaky(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("leaky")
-    (folder / "leaky.toml").write_text(LEAKY_FILE, encoding="utf-8")
-    for name, text in derive_description(describe(read_model_file(folder / "leaky.toml"))):
-        (folder / name).write_text(text, encoding="utf-8")
-    return dl.load(folder / "leaky.py")
+    return loaded(described_in(tmp_path_factory.mktemp("leaky"), "leaky", LEAKY_FILE))
 
 
 def path_of(model, load, tolerance=1e-11, **material) -> FlowPath:

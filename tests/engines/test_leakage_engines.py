@@ -6,12 +6,10 @@ import numpy as np
 import pytest
 import xarray as xr
 from electrical_membranes import LEAKY_FILE
+from emitted_once import described_in, loaded
 
 import delagrange as dl
 from delagrange.cli import main
-from delagrange.derive.model_file.describe import describe
-from delagrange.derive.model_file.file import read_model_file
-from delagrange.derive.pipeline import derive_description
 from delagrange.engines.flow import FlowPath
 from delagrange.engines.flow_compiled import flow_compiled
 from delagrange.engines.flow_scipy import flow_by_scipy
@@ -24,12 +22,7 @@ MAXWELL_TIME = 0.01  # [s], 60 pF/m over 6 nS/m
 
 @pytest.fixture(scope="module")
 def leaky(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("leaky")
-    file = folder / "leaky.toml"
-    file.write_text(LEAKY_FILE, encoding="utf-8")
-    for name, text in derive_description(describe(read_model_file(file))):
-        (folder / name).write_text(text, encoding="utf-8")
-    return dl.load(folder / "leaky.py")
+    return loaded(described_in(tmp_path_factory.mktemp("leaky"), "leaky", LEAKY_FILE))
 
 
 def test_a_file_says_what_leaks(leaky):

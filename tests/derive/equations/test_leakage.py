@@ -53,7 +53,7 @@ def start_of(module, charge: float) -> list[float]:
 
 
 def run_of(module, **given):
-    held = {"held_stretch": VALUES["held_stretch"]} if "pure_shear" in module.__name__ else {}
+    held = {"held_stretch": VALUES["held_stretch"]} if "held_stretch" in module.DEFAULTS else {}
     return dl.simulate(module, **{"duration": 0.02, "samples": 101, "force": 0.2, **held, **HARD, **given})
 
 
