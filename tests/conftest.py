@@ -7,6 +7,7 @@ import pickle
 import subprocess
 import sys
 from functools import cache
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -36,10 +37,13 @@ def walk() -> Derivation:
 
 def walked_under(hash_seed: str) -> Derivation:
     """The whole road, walked by another process."""
-    code = "import pickle, sys; from delagrange.derive import pipeline; pickle.dump(pipeline.walk(), sys.stdout.buffer)"
+    code = (
+        "import sys; sys.path.append(sys.argv[1]); from kept import pickled; from delagrange.derive import pipeline;"
+        "sys.stdout.buffer.write(pickled(pipeline.walk()))"
+    )
+    command = [sys.executable, "-c", code, str(Path(__file__).parent)]
     environment = {**os.environ, "PYTHONHASHSEED": hash_seed}
-    done = subprocess.run([sys.executable, "-c", code], env=environment, stdout=subprocess.PIPE, check=True)
-    return pickle.loads(done.stdout)
+    return pickle.loads(subprocess.run(command, env=environment, stdout=subprocess.PIPE, check=True).stdout)
 
 
 def derived(name: str) -> EquationsOfMotion:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import fcntl
 import io
+import marshal
 import os
 import pickle
 import shutil
@@ -17,9 +18,10 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import cache
 from hashlib import sha256
+from importlib import import_module
 from importlib.metadata import version
 from pathlib import Path
-from types import FunctionType, MappingProxyType
+from types import CellType, FunctionType, MappingProxyType
 from typing import TypeVar
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -38,14 +40,14 @@ def kept(name: str, subject: object, make: Callable[[], T]) -> T:
     path = FOLDER / "derived" / _digest_of_sources() / f"{name}_{digest(subject)}.pickle"
     with locked(path):
         if not path.is_file():
-            _write(path, pickle.dumps(make()))
+            _write(path, pickled(make()))
         return pickle.loads(path.read_bytes())
 
 
 def placed(modules: tuple[tuple[str, str], ...]) -> Path:
     """A folder that holds modules, file name and text, and beside them what Numba has compiled of them."""
     folder = FOLDER / "models" / digest(modules)
-    with locked(folder):
+    with locked(folder / "modules"):
         for name, text in modules:
             if not (folder / name).is_file():  # one that is written anew is compiled anew
                 _write(folder / name, text.encode())
@@ -72,23 +74,48 @@ def forget_old() -> None:
 
 def digest(subject: object) -> str:
     """Of a value: equal for equal ones that are made alike, in whatever process."""
-    written = io.BytesIO()
-    _Written(written).dump(subject)
-    return sha256(written.getvalue()).hexdigest()[:20]
+    return sha256(pickled(subject, _Told)).hexdigest()[:20]
 
 
-class _Written(pickle.Pickler):
-    """A function is what its file says where it stands, with what it holds."""
+class _Whole(pickle.Pickler):
+    """A function that stands in another goes with what it holds; strain energies are such functions."""
+
+    def reducer_override(self, thing):
+        if isinstance(thing, FunctionType) and "<" in thing.__qualname__:
+            code = marshal.dumps(thing.__code__)
+            return _function, (code, thing.__module__, thing.__qualname__, thing.__defaults__, _held(thing))
+        if isinstance(thing, MappingProxyType):
+            return MappingProxyType, (dict(thing),)
+        return NotImplemented
+
+
+class _Told(_Whole):
+    """A function is told by the file and the place that it stands in, and by what it holds."""
 
     def reducer_override(self, thing):
         if isinstance(thing, FunctionType):
             code = thing.__code__
-            held = tuple(cell.cell_contents for cell in thing.__closure__ or ())
             place = _digest_of_file(code.co_filename), code.co_firstlineno, thing.__qualname__, code.co_code
-            return tuple, ((*place, held, thing.__defaults__),)
-        if isinstance(thing, MappingProxyType):
-            return dict, (dict(thing),)
-        return NotImplemented
+            return tuple, ((*place, thing.__defaults__, _held(thing)),)
+        return super().reducer_override(thing)
+
+
+def pickled(value: object, pickler: type[pickle.Pickler] = _Whole) -> bytes:
+    written = io.BytesIO()
+    pickler(written).dump(value)
+    return written.getvalue()
+
+
+def _held(function: FunctionType) -> tuple:
+    return tuple(cell.cell_contents for cell in function.__closure__ or ())
+
+
+def _function(code: bytes, module: str, name: str, defaults: tuple | None, held: tuple) -> FunctionType:
+    """As `_Whole` writes it; the file and the Python are the same, or it would have another digest."""
+    cells = tuple(map(CellType, held))
+    made = FunctionType(marshal.loads(code), vars(import_module(module)), name, defaults, cells)
+    made.__qualname__ = name
+    return made
 
 
 @cache

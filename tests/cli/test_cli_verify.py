@@ -187,7 +187,7 @@ def test_ctrl_c_while_deriving(monkeypatch, capsys):
 # --- equations of one's own -----------------------------------------------------------------------------
 
 RATE = r"\dot{\xi} = \frac{\mu^\beta}{6\eta}(\lambda^2 \xi^{-1} - \lambda^{-4} \xi^5)"
-GENT = str(Path(__file__).parents[2] / "models" / "gent_two_branches.toml")
+GENT = str(Path(__file__).parents[1] / "models" / "gent_two_branches.toml")
 
 
 def test_a_pasted_equation_that_is_equal(capsys):

@@ -8,6 +8,7 @@ equation, solved for the quantity that it gives, is evaluated before and after i
 from __future__ import annotations
 
 from fractions import Fraction
+from functools import cache
 from pathlib import Path
 from random import Random
 
@@ -19,7 +20,7 @@ from delagrange.derive.check.verify import verdict_on
 from delagrange.derive.equations.derived_equations import derived_equations
 from delagrange.derive.notation import symbols as s
 from delagrange.derive.papers.sheng_2015.equations import SHENG_2015
-from delagrange.derive.printed.edits import single_edits
+from delagrange.derive.printed.edits import Edit, single_edits
 from delagrange.derive.printed.latex import read_equation
 from delagrange.derive.printed.tree import Group, Number, Power, Product, Quotient, Sum, Variable
 
@@ -107,8 +108,11 @@ def _derived(number, equations):
     return derived_equations(equations(MODEL.get(printed.load_case, printed.load_case)))[printed.quantity]
 
 
-def _mutations_that_matter(tree, unknown):
-    return (edit for edit in single_edits(tree) if not _same_mathematics(tree, edit.equation, unknown))
+@cache
+def _mutations_that_matter(number: str, unknown) -> tuple[Edit, ...]:
+    """Those of an equation that change the mathematics of the quantity that it gives."""
+    tree = _starting_tree(number)
+    return tuple(edit for edit in single_edits(tree) if not _same_mathematics(tree, edit.equation, unknown))
 
 
 @pytest.mark.parametrize("number", NUMBERS)
@@ -117,7 +121,7 @@ def test_every_mutation_that_matters_is_reported(number, equations, record_prope
     tree = _starting_tree(number)
     assert verdict_on(tree, subject, explained=False).agrees
 
-    mutations = tuple(_mutations_that_matter(tree, subject.derived.unknown.symbol))
+    mutations = _mutations_that_matter(number, subject.derived.unknown.symbol)
     survivors = [
         str(edit)
         for edit in mutations
@@ -130,11 +134,8 @@ def test_every_mutation_that_matters_is_reported(number, equations, record_prope
 
 
 def test_the_number_of_mutations_is_the_one_that_the_readme_states(equations):
-    count = sum(
-        1
-        for number in NUMBERS
-        for _ in _mutations_that_matter(_starting_tree(number), _derived(number, equations).unknown.symbol)
-    )
+    unknowns = {number: _derived(number, equations).unknown.symbol for number in NUMBERS}
+    count = sum(len(_mutations_that_matter(number, unknown)) for number, unknown in unknowns.items())
     readme = " ".join((Path(__file__).parents[3] / "README.md").read_text(encoding="utf-8").split())
     assert f"all {count} mutations that change the mathematics" in readme
 

@@ -14,7 +14,7 @@ from delagrange.derive.check.compare import Comparison, agrees_numerically, comp
 from delagrange.derive.check.record import departures, recorded
 from delagrange.derive.check.report import as_text, detail, rows, summary
 from delagrange.derive.check.verdict import Outcome
-from delagrange.derive.check.verify import verdict_on, verify
+from delagrange.derive.check.verify import verdict_on
 from delagrange.derive.equations.derived_equations import (
     DerivedEquation,
     check_dimensions,
@@ -35,8 +35,8 @@ MODELS = (
 
 
 @pytest.fixture(scope="module")
-def verdicts(equations):
-    return {(v.number, v.model): v for name in MODELS for v in verify(equations(name), SHENG_2015)}
+def verdicts(walked):
+    return {(verdict.number, verdict.model): verdict for verdict in walked.verdicts}
 
 
 @pytest.fixture

@@ -15,6 +15,7 @@ import pytest
 from conftest import HASH_SEED, PAPER_VALUES, walked_under
 from hypothesis import given
 from hypothesis import strategies as st
+from tidy import check_tidy
 
 from delagrange.derive import pipeline
 from delagrange.derive.check.report import as_text
@@ -269,13 +270,9 @@ def test_the_docstring_says_what_the_module_is(name):
 
 
 def test_no_line_is_too_long_and_no_name_is_unused():
-    for name in NAMES:
-        path = Path(str(resources.files("delagrange.generated").joinpath(f"{name}.py")))
-        assert max(len(line) for line in path.read_text(encoding="utf-8").splitlines()) <= 120
-        subprocess.run(
-            [sys.executable, "-m", "ruff", "check", "--isolated", "--select", "F,E7,E9", str(path)],
-            check=True,
-        )
+    """In modules of every kind."""
+    folder = Path(str(resources.files("delagrange.generated")))
+    check_tidy(*(folder / f"{name}{kind}.py" for name in NAMES for kind in ("", "_lanes", "_variational")))
 
 
 def test_the_same_text_under_any_hash_seed(walked):
