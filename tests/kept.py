@@ -85,7 +85,7 @@ class _Whole(pickle.Pickler):
             code = marshal.dumps(thing.__code__)
             return _function, (code, thing.__module__, thing.__qualname__, thing.__defaults__, _held(thing))
         if isinstance(thing, MappingProxyType):
-            return MappingProxyType, (dict(thing),)
+            return _read_only, (dict(thing),)
         return NotImplemented
 
 
@@ -104,6 +104,10 @@ def pickled(value: object, pickler: type[pickle.Pickler] = _Whole) -> bytes:
     written = io.BytesIO()
     pickler(written).dump(value)
     return written.getvalue()
+
+
+def _read_only(entries: dict) -> MappingProxyType:
+    return MappingProxyType(entries)
 
 
 def _held(function: FunctionType) -> tuple:
