@@ -508,7 +508,7 @@ def test_without_a_compiler_auto_is_scipy_and_says_so(obstacle, monkeypatch, for
         monkeypatch.setenv("NUMBA_DISABLE_JIT", "1")
         reason = "NUMBA_DISABLE_JIT is set"
     else:
-        monkeypatch.setattr(kernels, "travel_nowhere", broken)
+        monkeypatch.setattr(kernels, "compile_tangents", broken)
         reason = "equal_biaxial_variational cannot be compiled here: no such instruction"
     problem = problem_of("equal_biaxial")
     with pytest.warns(UserWarning, match=f"compiled code cannot run here .*{reason}.*engine 'scipy'"):

@@ -254,7 +254,7 @@ WITHOUT_COMPILER = """
 import sys
 import types
 import numpy as np
-from delagrange import compiled
+from delagrange.engines import compiled
 from test_emit_lanes import kernel_of, short_run
 compiled.load_kernel = lambda _: kernel_of(sys.argv[1])  # which the engine would refuse
 assert isinstance(kernel_of(sys.argv[1]).integrate, types.FunctionType)
@@ -289,10 +289,10 @@ def test_a_whole_run_without_the_compiler_is_the_compiled_one(name, tmp_path):
 
     The compiler fuses products with sums, which steps feel in their last digits: far below the tolerance.
     """
-    place = os.pathsep.join([str(Path(__file__).parents[2]), os.environ.get("PYTHONPATH", "")])
+    folders = [str(Path(__file__).parent), str(Path(__file__).parents[2]), os.environ.get("PYTHONPATH", "")]
     subprocess.run(
         [sys.executable, "-c", WITHOUT_COMPILER, name, str(tmp_path / "outcome.npz")],
-        env={**os.environ, "NUMBA_DISABLE_JIT": "1", "PYTHONPATH": place},
+        env={**os.environ, "NUMBA_DISABLE_JIT": "1", "PYTHONPATH": os.pathsep.join(folders)},
         check=True,
     )
     slow, fast = np.load(tmp_path / "outcome.npz"), vars(short_run(name))
