@@ -26,7 +26,6 @@ from delagrange.figures.style import BLACK, BLUE, ORANGE, caption, new_figure
 
 FORCES = np.array([0.0, 1.0])  # on each edge [N]
 MASSES = np.geomspace(1e-5, 0.1, 17)  # on each edge [kg]
-NEGLIGIBLE = 1e-12  # of each edge [kg]: a mass must be positive
 CAPTION = (
     "Natural frequency of a neo-Hookean membrane over the mass on each of its four edges, under two equal-biaxial "
     "dead loads. Dotted: without a mass. Dashed: with a mass that is large beside the membrane, without load."
@@ -41,7 +40,7 @@ def frequencies(folder: Path) -> xr.Dataset:
     """
     model = model_of_file("attached_mass.toml", folder)
     found = dl.modes(model, force=FORCES, edge_mass=MASSES).isel(mode=0)
-    bare = dl.modes(model, force=FORCES, edge_mass=NEGLIGIBLE)["frequency"].isel(mode=0, drop=True)
+    bare = dl.modes(model, force=FORCES, edge_mass=0.0)["frequency"].isel(mode=0, drop=True)
     return found.assign(bare_frequency=bare.drop_vars("edge_mass").assign_attrs(long_name="without a mass"))
 
 

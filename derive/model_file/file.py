@@ -76,7 +76,10 @@ from delagrange.derive.model_file.springs import (
     read_spring,
 )
 from delagrange.derive.model_file.toml_table import Table, read_toml
+from delagrange.derive.notation import more_symbols as m
+from delagrange.derive.notation import symbols as s
 from delagrange.derive.notation.dimensions import dimension_of
+from delagrange.derive.notation.symbols import Quantity
 
 MOST_BRANCHES = 9  # more would make the names of inelastic stretches ambiguous
 _NAME = re.compile("[a-z][a-z0-9_]{0,39}")
@@ -111,8 +114,8 @@ def read_model_file(path: Path) -> ModelFile:
         equilibrium_spring=_equilibrium_spring(_present(whole, "equilibrium_spring")),
         branches=_branches(whole),
         dielectric=_dielectric(_present(whole, "dielectric")),
-        parallel_viscosity=_damping(whole, "parallel_viscosity", "Pa s"),
-        medium_damping=_damping(whole, "medium", "Pa s/m"),
+        parallel_viscosity=_damping(whole, "parallel_viscosity", m.PARALLEL_VISCOSITY),
+        medium_damping=_damping(whole, "medium", m.MEDIUM_DAMPING),
         load=load,
         attachments=_attachments(whole, load),
     )
@@ -151,10 +154,10 @@ def _body(table: Table, load: LoadEntry) -> BodyEntry:
             "the sides of a membrane under equal-biaxial load are equal: give half_length", "half_length_1"
         )
     return BodyEntry(
-        table.quantity("half_length" if square else "half_length_1", "m"),
-        None if square else table.quantity("half_length_2", "m"),
-        table.quantity("half_thickness", "m"),
-        table.quantity("density", "kg/m^3"),
+        table.value_of("half_length" if square else "half_length_1", s.HALF_LENGTH),
+        None if square else table.value_of("half_length_2", m.HALF_LENGTH_2),
+        table.value_of("half_thickness", s.HALF_THICKNESS),
+        table.value_of("density", s.DENSITY),
     )
 
 
@@ -175,8 +178,8 @@ def _branches(whole: Table) -> tuple[BranchEntry, ...]:
 def _branch(table: Table) -> BranchEntry:
     spring = read_spring(table)
     if table.one_of("viscosity", "relaxation_time") == "viscosity":
-        return BranchEntry(spring, table.quantity("viscosity", "Pa s"))
-    time, modulus = table.quantity("relaxation_time", "s"), modulus_at_rest(spring)
+        return BranchEntry(spring, table.value_of("viscosity", s.VISCOSITY))
+    time, modulus = table.number("relaxation_time", "s"), modulus_at_rest(spring)
     viscosity = time * modulus
     if not 0 < viscosity < math.inf:
         table.refuse(
@@ -194,7 +197,7 @@ def _dielectric(table: Table) -> DielectricEntry:
     if table.one_of("permittivity", "permittivity_formula") == "permittivity":
         if "parameters" in table:
             table.refuse("parameters belong to a permittivity_formula, and there is none", "parameters")
-        return DielectricEntry(table.quantity("permittivity", "F/m"), (), control, conductivity)
+        return DielectricEntry(table.value_of("permittivity", s.PERMITTIVITY), (), control, conductivity)
     own = constants(table.table("parameters"), tuple(STRETCH_NAMES))
     symbols = {each.name: sp.Symbol(each.name) for each in own}
     law = formula(table, "permittivity_formula", {**STRETCH_NAMES, **symbols})
@@ -210,7 +213,7 @@ def _conductivity(table: Table, control: str) -> float | None:
     if control != CHARGE:
         table.refuse(f"conductivity needs control = {shown(CHARGE)}: under voltage control the source holds the "
                      "field, and leakage changes no motion", "conductivity")  # fmt: skip
-    return table.quantity("conductivity", "S/m")
+    return table.value_of("conductivity", m.CONDUCTIVITY)
 
 
 def _check_permittivity(
@@ -228,10 +231,10 @@ def _check_permittivity(
         table.refuse(f"{key} must be positive and finite at rest, got {with_unit(value, 'F/m')}", key)
 
 
-def _damping(whole: Table, key: str, unit: str) -> float | None:
+def _damping(whole: Table, key: str, quantity: Quantity) -> float | None:
     table = whole.table("damping")
     table.only("parallel_viscosity", "medium")
-    return table.quantity(key, unit) if key in table else None
+    return table.value_of(key, quantity) if key in table else None
 
 
 def _attachments(whole: Table, load: LoadEntry) -> tuple[AttachmentEntry, ...]:
@@ -257,6 +260,6 @@ def _attachment(table: Table, held: tuple[int, ...]) -> AttachmentEntry:
         table.refuse(f"{table.title} needs a mass, a stiffness or both")
     return AttachmentEntry(
         None if axis is None else int(axis),
-        table.quantity("mass", "kg") if "mass" in table else None,
-        table.quantity("stiffness", "N/m") if "stiffness" in table else None,
+        table.value_of("mass", m.EDGE_MASS) if "mass" in table else None,
+        table.value_of("stiffness", m.EDGE_STIFFNESS) if "stiffness" in table else None,
     )

@@ -26,6 +26,7 @@ from collections.abc import Mapping
 import sympy as sp
 
 from delagrange.common.dimension import Dimension
+from delagrange.common.roles import Sign
 from delagrange.common.units import shown
 from delagrange.derive.membrane.description import BIAXIAL, EQUAL_BIAXIAL, PURE_SHEAR, RELATION, UNIAXIAL
 from delagrange.derive.model_file.entries import Constant, LoadEntry, RelationEntry
@@ -34,6 +35,7 @@ from delagrange.derive.model_file.number_at import number_at
 from delagrange.derive.model_file.relation_coordinate import is_positive, symbols_of
 from delagrange.derive.model_file.springs import constants, formula
 from delagrange.derive.model_file.toml_table import Table
+from delagrange.derive.notation import symbols as s
 from delagrange.derive.notation.dimensions import dimension_of
 
 _KEYS = {
@@ -47,9 +49,6 @@ _ALL_KEYS = ("kind", *(key for keys in _KEYS.values() for key in keys))
 _THICKNESS = ("lambda_3",)
 _COORDINATE = re.compile("[a-z][a-z0-9_]{0,29}")
 _NO_SLOPE = 1e-12  # of a stretch over the relative change of the coordinate: round-off
-_POSITIVE_NAME = (
-    "stretch"  # within a name, it says that the quantity is positive: `delagrange.problem.initial.is_stretch`
-)
 
 
 def read_load(table: Table) -> LoadEntry:
@@ -67,7 +66,7 @@ def read_load(table: Table) -> LoadEntry:
     if kind != PURE_SHEAR:
         return LoadEntry(kind)
     dashpots = table.choice("lateral_dashpots", ("free", "held"), default="free")
-    return LoadEntry(kind, table.quantity("held_stretch", "1"), dashpots == "free")
+    return LoadEntry(kind, table.value_of("held_stretch", s.HELD_STRETCH), dashpots == "free")
 
 
 def _refuse_more_than_enough(table: Table, kind: str) -> None:
@@ -103,7 +102,7 @@ def _relation(table: Table) -> RelationEntry:
         coordinate,
         table.text("lambda_1"),
         table.text("lambda_2"),
-        table.quantity("start", "1", positive=False) if "start" in table else 1.0,
+        table.number("start", "1", Sign.ANY) if "start" in table else 1.0,
         _axes(table),
         own,
     )
@@ -151,18 +150,14 @@ def _formulas(table: Table, entry: RelationEntry) -> tuple[Mapping[str, sp.Symbo
     """The coordinate and the constants by name, and both stretches in them.
 
     Raises:
-        ModelError: a formula that cannot be read, or a name that fits no coordinate of any sign.
+        ModelError: a formula that cannot be read.
     """
     keys = ("lambda_1", "lambda_2")
     symbols = symbols_of(entry, positive=False)
     stretches = [formula(table, key, symbols) for key in keys]
     if is_positive(entry):
         symbols = symbols_of(entry, positive=True)
-        return symbols, [formula(table, key, symbols) for key in keys]
-    name = entry.coordinate
-    if _POSITIVE_NAME in name:
-        table.refuse(f"coordinate cannot be {name!r}: it may be zero or negative here, and a stretch may not; "
-                     "choose another name", "coordinate")  # fmt: skip
+        stretches = [formula(table, key, symbols) for key in keys]
     return symbols, stretches
 
 

@@ -87,7 +87,7 @@ def _material_spring(table: Table) -> MaterialSpring:
     except ValueError as error:
         table.refuse(str(error), "material")
     table.only("material", *(kind.name for kind in kinds), "viscosity", "relaxation_time")
-    values = {kind.name: table.quantity(kind.name, kind.unit, positive=kind.positive) for kind in kinds}
+    values = {kind.name: table.value_of(kind.name, kind.of(ALPHA)) for kind in kinds}
     return MaterialSpring(found.name, values, terms if found.kinds_of_term else 1)
 
 

@@ -14,7 +14,9 @@ from typing import Any, NoReturn
 
 from delagrange.common.checks import did_you_mean
 from delagrange.common.quantity_text import read_quantity
+from delagrange.common.roles import Sign
 from delagrange.common.units import shown, with_unit
+from delagrange.derive.notation.symbols import Quantity
 
 Keys = tuple[str | int, ...]  # ("branch", 1, "viscosity"): the array's second table
 
@@ -78,20 +80,28 @@ class Table:
             self.refuse(f"{self.title} needs a value of {key}")
         return self.values[key]
 
-    def quantity(self, key: str, unit: str, *, positive: bool = True) -> float:
+    def value_of(self, key: str, quantity: Quantity) -> float:
+        """The value of a key that stands for a quantity of the model, in its SI unit.
+
+        Raises:
+            ModelError: as `number`.
+        """
+        return self.number(key, quantity.unit, quantity.sign)
+
+    def number(self, key: str, unit: str, sign: Sign = Sign.POSITIVE) -> float:
         """The value of a key in an SI unit; it may carry a unit of its own ("42 kPa").
 
         Raises:
-            ModelError: it is missing, no number, of another dimension, or not positive where it must be.
+            ModelError: it is missing, no number, of another dimension, or of a sign that is not allowed.
         """
         value = self.needed(key)
         try:
             number = read_quantity(key, value, unit)
         except ValueError as error:
             self.refuse(str(error), key)
-        if positive and not number > 0:
+        if not sign.allows(number):
             given = shown(value) if isinstance(value, str) else with_unit(value, unit)
-            self.refuse(f"{key} must be positive, got {given}", key)
+            self.refuse(f"{key} must be {sign.words}, got {given}", key)
         return number
 
     def text(self, key: str) -> str:

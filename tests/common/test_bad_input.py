@@ -23,7 +23,7 @@ def _sweep(model="equal_biaxial", **options):
 
 CASES = {
     "density zero": (_simulate(density=0.0), r"density must be positive and finite, got 0 kg/m\^3"),
-    "modulus nan": (_simulate(shear_modulus_alpha=NAN), "shear_modulus_alpha must be positive .* nan Pa"),
+    "modulus nan": (_simulate(shear_modulus_alpha=NAN), "shear_modulus_alpha must be finite, got nan Pa"),
     "relaxation time": (_simulate(relaxation_time=-1.0), "relaxation_time must be positive .* -1 s"),
     "unknown parameter": (_simulate(viscocity=1.0), "unknown parameter 'viscocity'.*'viscosity'"),
     "array parameter": (_simulate(density=[1.0, 2.0]), "density must be a single number"),

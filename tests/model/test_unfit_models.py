@@ -13,7 +13,10 @@ from user_membranes import write_membrane
 import delagrange as dl
 from delagrange import generated
 from delagrange.model.kernels import LANES, VARIATIONAL
-from delagrange.model.model_material import material_of
+from delagrange.model.parameters import material_of
+from delagrange.model.variables import role_of, sign_of
+from delagrange.problem.dashpots import dashpot_count, frozen
+from delagrange.problem.problem import make_problem
 
 BUILT_IN = Path(generated.__path__[0])
 _OWN = """import numpy as np
@@ -123,3 +126,43 @@ def test_what_may_be_negative_is_not_refused(tmp_path):
         text = _OWN.replace('"stiffness", "k", "1/s^2", "stiffness"', f'"{name}", "k", "{unit}", "{name}"')
         model = dl.load(written(tmp_path / f"{name}.py", text + f'DEFAULTS = {{"{name}": -2.0}}\n'))
         assert material_of(model, dl.SHENG_2015).values == {name: -2.0}
+
+
+# --- roles ----------------------------------------------------------------------------------------
+
+
+_ROLES = _OWN.replace("    meaning: str\n", "    meaning: str\n    role: str = None\n    sign: str = None\n")
+
+
+def test_a_variable_that_says_its_role_is_asked_and_its_name_is_not(tmp_path):
+    rows = """(Variable("k", "k", "1/s^2", "k"), Variable("eta", "η", "Pa s", "", "viscosity"),
+              Variable("viscosity", "", "1", "", "exponent"))"""
+    text = _ROLES.replace('(Variable("stiffness", "k", "1/s^2", "stiffness"),)', rows)
+    text += 'DEFAULTS = {"k": 1.0, "eta": 2.0, "viscosity": -3.0}\n'
+    model = dl.load(written(tmp_path / "own.py", text))
+    assert dashpot_count(model) == 1
+    assert frozen(make_problem(model, None, {}, None, 0.0, 0.0)).parameters == (1.0, np.inf, -3.0)
+    with pytest.raises(ValueError, match="eta must be positive and finite, got -1 Pa s"):
+        dl.simulate(model, duration=1e-4, eta=-1.0)
+
+
+def test_a_variable_without_a_role_has_that_of_the_emitted_one_of_its_name(tmp_path):
+    model = dl.load(write_membrane(tmp_path, "mine", branches=2))
+    assert dashpot_count(model) == 2
+    assert [str(role_of(entry)) for entry in model.STATE] == (
+        ["stretch"] * 2 + ["constant"] * 2 + ["inelastic_stretch"] * 4
+    )
+    assert [str(sign_of(entry)) for entry in model.PARAMETERS][:4] == ["positive"] * 4
+
+
+@pytest.mark.parametrize(("facts", "says"), [
+    ('"viscocity"', r"PARAMETERS: role of stiffness must be one of stretch, .*; got 'viscocity' \(did you mean"),
+    ('"stiffness", "negative"', r"sign of stiffness must be one of positive, not_negative, any; got 'negative'"),
+    ("7", "role of stiffness must be one of .*; got 7"),
+])  # fmt: skip
+def test_a_role_or_a_sign_that_there_is_not_is_refused(tmp_path, facts, says):
+    text = _ROLES.replace(
+        '"stiffness", "k", "1/s^2", "stiffness"', f'"stiffness", "k", "1/s^2", "stiffness", {facts}'
+    )
+    with pytest.raises(ValueError, match=says):
+        dl.load(written(tmp_path / "own.py", text))

@@ -11,7 +11,7 @@ import pytest
 from user_membranes import write_membrane
 
 import delagrange as dl
-from delagrange.model.model_material import material_of
+from delagrange.model.parameters import material_of
 from delagrange.problem.dashpots import frozen
 from delagrange.problem.problem import make_problem
 

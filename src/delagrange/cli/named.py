@@ -10,8 +10,7 @@ import numpy as np
 from delagrange.cli import quantities
 from delagrange.common import checks
 from delagrange.common.checks import did_you_mean
-from delagrange.model.model_material import material_of
-from delagrange.model.parameters import CHANGEABLE_UNITS, SHENG_2015
+from delagrange.model.parameters import CHANGEABLE_UNITS, material_of
 
 Values = float | np.ndarray
 
@@ -36,7 +35,7 @@ def material_given(
         ValueError: another form, no parameter of the model, values that are no numbers or ranges, or one twice.
     """
     own = {name: options[name] for name in CHANGEABLE_UNITS if options.get(name) is not None}
-    named = named_values("parameter", texts, material_of(module, SHENG_2015).units)
+    named = named_values("parameter", texts, material_of(module, None).units)
     for name in named:
         if name in own:
             option = f"--{name.replace('_', '-')}"
@@ -52,7 +51,7 @@ def refuse_many(given: Mapping[str, object], module: ModuleType, but: str | None
     Raises:
         ValueError: naming the first, with its values.
     """
-    units = {entry.name: entry.unit for entry in module.INPUTS} | material_of(module, SHENG_2015).units
+    units = {entry.name: entry.unit for entry in module.INPUTS} | material_of(module, None).units
     for name, value in {**given, **(given.get("inputs") or {})}.items():
         if name in units and name != but and value is not None:
             checks.scalar(name, value, units[name])

@@ -7,6 +7,7 @@ from difflib import get_close_matches
 
 import numpy as np
 
+from delagrange.common.roles import Sign
 from delagrange.common.units import in_words, shown, unit_name, with_unit
 
 _REAL_KINDS = (
@@ -14,20 +15,23 @@ _REAL_KINDS = (
 )
 
 
+def signed(name: str, value: object, unit: str, sign: Sign) -> float | np.ndarray:
+    """`value` as float (or float array), all of it finite and of a sign that is allowed."""
+    array = _as_float(name, value, unit)
+    if not np.all(np.isfinite(array) & sign.allows(array)):
+        allowed = "finite" if sign is Sign.ANY else f"{sign.words} and finite"
+        raise ValueError(f"{name} must be {allowed}, got {with_unit(value, unit)}")
+    return _scalar_or_array(array)
+
+
 def finite(name: str, value: object, unit: str) -> float | np.ndarray:
     """`value` as float (or float array), all of it finite."""
-    array = _as_float(name, value, unit)
-    if not np.all(np.isfinite(array)):
-        raise ValueError(f"{name} must be finite, got {with_unit(value, unit)}")
-    return _scalar_or_array(array)
+    return signed(name, value, unit, Sign.ANY)
 
 
 def positive(name: str, value: object, unit: str) -> float | np.ndarray:
     """`value` as float (or float array), all of it positive and finite."""
-    array = _as_float(name, value, unit)
-    if not np.all(np.isfinite(array) & (array > 0)):
-        raise ValueError(f"{name} must be positive and finite, got {with_unit(value, unit)}")
-    return _scalar_or_array(array)
+    return signed(name, value, unit, Sign.POSITIVE)
 
 
 def scalar(name: str, value: float | np.ndarray, unit: str) -> float:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from enum import StrEnum
+from typing import Any
 
 
 class Role(StrEnum):
@@ -51,6 +52,20 @@ class Sign(StrEnum):
     POSITIVE = "positive"
     NOT_NEGATIVE = "not_negative"  # positive or zero: what may be absent
     ANY = "any"
+
+    @property
+    def words(self) -> str:
+        """What must be so of a number, in a sentence."""
+        return {Sign.POSITIVE: "positive", Sign.NOT_NEGATIVE: "zero or positive"}.get(self, "a number")
+
+    def allows(self, numbers: Any) -> Any:
+        """Whether a number may be so, or which of an array may; what is not a number may not."""
+        match self:
+            case Sign.POSITIVE:
+                return numbers > 0
+            case Sign.NOT_NEGATIVE:
+                return numbers >= 0
+        return numbers == numbers
 
 
 _POSITIVE = (

@@ -14,8 +14,8 @@ import numpy as np
 from delagrange.common import checks
 from delagrange.drives.drive import Constant, Drive, Sine, Step
 from delagrange.drives.inputs import CHARGE_DENSITY
+from delagrange.model.variables import is_stretch
 from delagrange.problem.coordinate_size import straining_change
-from delagrange.problem.initial import is_stretch
 from delagrange.problem.problem import Problem, input_name
 from delagrange.problem.status import Limits
 

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from delagrange.model.variables import is_stretch
 from delagrange.problem.coordinate_size import straining_change, strains_at
-from delagrange.problem.initial import is_stretch
 from delagrange.problem.problem import Problem
 from delagrange.problem.status import Limits
 

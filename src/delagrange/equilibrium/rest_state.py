@@ -35,7 +35,7 @@ from delagrange.equilibrium.statics import (
 )
 from delagrange.equilibrium.vibration import growing_directions
 from delagrange.model.load import check_offers, load_model
-from delagrange.model.parameters import SHENG_2015, Parameters
+from delagrange.model.parameters import Parameters
 from delagrange.problem.dashpots import (
     FROZEN,
     RELAXED,
@@ -59,7 +59,7 @@ def rest_state(
     dashpots: str = RELAXED,
     formulation: str | None = None,
     lateral_dashpot: str | None = None,
-    parameters: Parameters = SHENG_2015,
+    parameters: Parameters | None = None,
     limits: Limits | None = None,
     **material: float,
 ) -> dict[str, float]:

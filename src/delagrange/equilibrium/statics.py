@@ -13,10 +13,12 @@ from functools import cached_property
 import numpy as np
 
 from delagrange.common import checks
+from delagrange.common.roles import Role
 from delagrange.drives.inputs import CHARGE_DENSITY, ElectricalInput, electrical_input
 from delagrange.equilibrium.chart import Chart, make_chart
 from delagrange.equilibrium.continuation import ContinuationSettings, Evaluation, Lost, solve
 from delagrange.model.load import check_offers
+from delagrange.model.variables import named
 from delagrange.problem import status as loss
 from delagrange.problem.dashpots import (
     FROZEN,
@@ -72,7 +74,7 @@ class Statics:
     @cached_property
     def typical_force(self) -> float:
         """The force [N] that would strain the membrane by 1 in the reference state, were it linear."""
-        forces = [entry.name for entry in self.problem.model.INPUTS if entry.unit == "N"]
+        forces = named(self.problem.model.INPUTS, Role.FORCE)
         sizes = [typical_input(self, name) for name in forces]
         return min(sizes, default=1.0)
 

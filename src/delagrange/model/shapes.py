@@ -7,6 +7,7 @@ from types import ModuleType
 import numpy as np
 
 from delagrange.common.units import shown
+from delagrange.model.variables import role_of, sign_of
 
 _TABLES = ("STATE", "INPUTS", "PARAMETERS")
 _TOLD = ("name", "symbol", "unit", "meaning")  # of every entry of a table
@@ -32,6 +33,10 @@ def _fault_of_tables(module: ModuleType) -> str | None:
         for entry in entries:
             if not all(isinstance(getattr(entry, told, None), str) for told in _TOLD):
                 return f"each of {table} must have a {', '.join(_TOLD)}, all text, got {shown(entry)}"
+            try:
+                role_of(entry), sign_of(entry)
+            except ValueError as wrong:
+                return f"{table}: {wrong}"
     count, size = module.COORDINATE_COUNT, len(module.STATE)
     if not isinstance(count, int) or isinstance(count, bool) or not 1 <= count <= size // 2:
         return f"COORDINATE_COUNT must be an integer from 1 to half the {size} of STATE, got {shown(count)}"

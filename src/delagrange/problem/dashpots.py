@@ -14,7 +14,8 @@ from types import ModuleType
 import numpy as np
 
 from delagrange.common import checks
-from delagrange.drives.inputs import CHARGE
+from delagrange.common.roles import Role
+from delagrange.model.variables import named, role_of
 from delagrange.problem.initial import (
     checked_initial,
     initial_units,
@@ -28,7 +29,7 @@ FROZEN, RELAXED, EVOLVING = "frozen", "relaxed", "evolving"
 def frozen(problem: Problem) -> Problem:
     """The problem with every dashpot frozen."""
     parameters = tuple(
-        np.inf if entry.name.startswith("viscosity") else value
+        np.inf if role_of(entry) is Role.VISCOSITY else value
         for entry, value in zip(problem.model.PARAMETERS, problem.parameters)
     )
     return replace(problem, parameters=parameters)
@@ -46,7 +47,7 @@ def is_damped(problem: Problem) -> bool:
 
 def dashpot_count(model: ModuleType) -> int:
     """How many dashpots the model has, each of which may flow along several axes."""
-    return sum(entry.name.startswith("viscosity") for entry in model.PARAMETERS)
+    return len(named(model.PARAMETERS, Role.VISCOSITY))
 
 
 def coordinate_places(model: ModuleType) -> slice:
@@ -67,8 +68,8 @@ def dashpot_places(model: ModuleType) -> slice:
 
 def charge_place(model: ModuleType) -> int | None:
     """Where the nominal charge density stands in the state, last of all; None where no charge is part of it."""
-    names = [entry.name for entry in model.STATE]
-    return names.index(CHARGE) if CHARGE in names else None
+    roles = [role_of(entry) for entry in model.STATE]
+    return roles.index(Role.CHARGE_DENSITY) if Role.CHARGE_DENSITY in roles else None
 
 
 def given_state(problem: Problem, initial_state: Mapping[str, float] | None) -> np.ndarray:

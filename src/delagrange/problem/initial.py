@@ -9,6 +9,7 @@ import numpy as np
 
 from delagrange.common import checks
 from delagrange.common.units import shown
+from delagrange.model.variables import sign_of
 
 PREFIX = "initial_"  # of the names of a grid that are values of the state at t = 0
 EQUILIBRIUM = "equilibrium"
@@ -74,14 +75,8 @@ def is_equilibrium(model: ModuleType, given: object) -> bool:
     return isinstance(given, str)
 
 
-def is_stretch(entry: object) -> bool:
-    """Whether a state variable is a stretch, which is positive; its rate, a charge or an angle need not be."""
-    return entry.unit == "1" and "stretch" in entry.name
-
-
 def _checked(entry: object, value: object) -> float | np.ndarray:
-    check = checks.positive if is_stretch(entry) else checks.finite
-    return check(f"initial_state {entry.name}", value, entry.unit)
+    return checks.signed(f"initial_state {entry.name}", value, entry.unit, sign_of(entry))
 
 
 def _known(model: ModuleType) -> str:

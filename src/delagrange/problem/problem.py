@@ -13,8 +13,8 @@ from delagrange.common import checks
 from delagrange.common.units import shown, with_unit
 from delagrange.drives.drive import Drive, Values
 from delagrange.drives.inputs import Inputs, drives_of, input_name
-from delagrange.model.model_material import HELD_STRETCH, default_held_stretch, material_of, value_of
-from delagrange.model.parameters import Parameters
+from delagrange.model.material import defaults_of, held_stretch_name, value_of
+from delagrange.model.parameters import Parameters, material_of
 from delagrange.problem import status as loss
 from delagrange.problem.status import Limits
 
@@ -91,7 +91,7 @@ class Problem:
 
 def make_problem(
     model: ModuleType,
-    parameters: Parameters,
+    parameters: Parameters | None,
     changes: Mapping[str, Values],
     held_stretch: Values | None,
     force: Drive | Values,
@@ -101,7 +101,7 @@ def make_problem(
     """Put a problem together, checking that the model has what is given and is given what it has.
 
     Args:
-        parameters, changes: of the material, see `delagrange.model.model_material.material_of`.
+        parameters, changes: of the material, see `delagrange.model.parameters.material_of`.
         inputs: drives or values of inputs by name, those of `model.INPUTS`; one that is not given is zero.
 
     Raises:
@@ -158,12 +158,12 @@ def _most_extreme(problem: Problem) -> str:
 
 
 def _held(model: ModuleType, held_stretch: Values | None) -> dict[str, Values]:
-    needed = any(variable.name == HELD_STRETCH for variable in model.PARAMETERS)
-    held_stretch = default_held_stretch(model) if needed and held_stretch is None else held_stretch
+    needed = held_stretch_name(model)
+    held_stretch = defaults_of(model).get(needed) if held_stretch is None else held_stretch
     if needed and held_stretch is None:
         raise ValueError(f"held_stretch [1] is missing: {model.MODEL} needs it, positive and finite")
     if not needed and held_stretch is not None:
         raise ValueError(
             f"held_stretch {shown(held_stretch)} [1] given, but {model.MODEL} holds no stretch; leave it out"
         )
-    return {HELD_STRETCH: checks.positive(HELD_STRETCH, held_stretch, "1")} if needed else {}
+    return {needed: checks.positive("held_stretch", held_stretch, "1")} if needed else {}

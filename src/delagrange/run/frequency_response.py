@@ -16,7 +16,7 @@ from delagrange.drives.sines import ELECTRICAL_INPUTS, driven_sine, phase_name, 
 from delagrange.engines.engines import resolve_numerics
 from delagrange.engines.lanes import Outcome
 from delagrange.model.load import load_model
-from delagrange.model.parameters import SHENG_2015, Parameters
+from delagrange.model.parameters import Parameters
 from delagrange.model.user_files import is_users
 from delagrange.problem.initial import EQUILIBRIUM_MEANING, PREFIX, is_equilibrium
 from delagrange.problem.status import Limits
@@ -54,7 +54,7 @@ def frequency_response(
     held_stretch: np.ndarray | float | None = None,
     formulation: str | None = None,
     lateral_dashpot: str | None = None,
-    parameters: Parameters = SHENG_2015,
+    parameters: Parameters | None = None,
     initial_state: Mapping[str, np.ndarray | float] | str | None = None,
     window: tuple[float, float] | None = None,
     averages: bool = False,

@@ -14,10 +14,10 @@ from delagrange.drives.drive import Drive
 from delagrange.drives.inputs import Inputs
 from delagrange.equilibrium.start import starting_state
 from delagrange.model.load import check_offers, load_model
-from delagrange.model.model_material import material_of
-from delagrange.model.parameters import SHENG_2015, Parameters
+from delagrange.model.parameters import Parameters, material_of
+from delagrange.model.variables import sign_of
 from delagrange.problem import status as loss
-from delagrange.problem.initial import EQUILIBRIUM_MEANING, is_equilibrium, is_stretch
+from delagrange.problem.initial import EQUILIBRIUM_MEANING, is_equilibrium
 from delagrange.problem.problem import Problem, input_name, make_problem
 from delagrange.problem.status import Limits
 from delagrange.problem.tolerances import check_duration, check_tolerances
@@ -40,7 +40,7 @@ def simulate(
     held_stretch: float | None = None,
     formulation: str | None = None,
     lateral_dashpot: str | None = None,
-    parameters: Parameters = SHENG_2015,
+    parameters: Parameters | None = None,
     time: np.ndarray | None = None,
     samples: int | None = None,
     initial_state: Mapping[str, float] | str | np.ndarray | None = None,
@@ -61,8 +61,8 @@ def simulate(
         inputs: drives or numbers of any input of the model by its name, as {"force_2": 0.3}, in its own unit.
         held_stretch: stretch [1] at which pure shear holds axis 2; needed there, refused elsewhere.
         formulation, lateral_dashpot: choice among the models of pure shear, see `load_model`.
-        parameters: the membrane; `**material` replaces single values of it, `relaxation_time` [s] included. A
-            model with parameters of its own has its `DEFAULTS`, see `delagrange.model.model_material.material_of`.
+        parameters: the membrane, in place of the model's `DEFAULTS` or, where it has none, of SHENG_2015;
+            `**material` replaces single values of it, `relaxation_time` [s] included.
         time: times [s] of the output, increasing, from 0 to `duration`; or
         samples: how many, evenly spaced, 2 to 10000000. Left out, at least 2001, at most 25 us apart in
             runs of up to 25 s; in longer ones 1000001, farther apart.
@@ -168,8 +168,7 @@ def initial_values(
             f"initial_state must hold {len(model.STATE)} values ({names}), got shape {state.shape}"
         )
     for entry, value in zip(model.STATE, state):
-        if is_stretch(entry):
-            checks.positive(f"initial_state {entry.name}", value, entry.unit)
+        checks.signed(f"initial_state {entry.name}", value, entry.unit, sign_of(entry))
     return state
 
 

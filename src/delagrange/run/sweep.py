@@ -32,8 +32,7 @@ from delagrange.engines.step_control import step_control
 from delagrange.engines.tableau import Tableau, tableau
 from delagrange.equilibrium.start import before_the_field, loaded_equilibrium
 from delagrange.model.material import Material
-from delagrange.model.model_material import material_of
-from delagrange.model.parameters import CHANGEABLE_UNITS, Parameters
+from delagrange.model.parameters import CHANGEABLE_UNITS, Parameters, material_of
 from delagrange.problem import status as loss
 from delagrange.problem.initial import (
     PREFIX,
@@ -63,7 +62,7 @@ class Sweep:
     """A sweep, ready to run."""
 
     model: ModuleType
-    parameters: Parameters
+    parameters: Parameters | None
     grid: Grid
     drives: Mapping[str, Drive]  # of inputs by name, where they are drives and not values of the grid
     measures: Measures
@@ -129,7 +128,7 @@ class Sweep:
 
 def make_sweep(
     model: ModuleType,
-    parameters: Parameters,
+    parameters: Parameters | None,
     values: Mapping[str, object],
     settings: RunSettings,
     engine: str,
@@ -160,6 +159,7 @@ def make_sweep(
     material.check_names({name: value for name, value in given.items() if name not in others})
     units |= {**SWEEP_UNITS, **material.units, **initial_units(model)}
     checked = {name: _checked(name, value, units[name], material) for name, value in given.items()}
+    material.check_grid(checked)
     frequency = {"frequency": checked.pop("frequency")}  # the last axis
     start = {} if at_rest else checked_initial(model, initial)
     grid = make_grid(checked | start | frequency, units, "frequency")

@@ -12,6 +12,7 @@ import pytest
 import sympy as sp
 
 from delagrange.cli import main
+from delagrange.common.roles import Role, Sign
 from delagrange.derive.emit import write_together as writing
 from delagrange.derive.emit.write_together import write_together
 from delagrange.derive.model_file.describe import describe
@@ -46,6 +47,7 @@ parameters = { mu = "18 kPa", a = "1 kPa" }
 """
 GENT = 'material = "Gent"\nshear_modulus = "18 kPa"\nlocking = 110\n'
 LOAD = '[load]\nkind = "equal_biaxial"\n'
+ATTACHED = SMALL + '[[attachment]]\nmass = "0 g"\nstiffness = -2\n'
 RELATION = """[load]
 kind = "relation"
 coordinate = "q"
@@ -171,6 +173,23 @@ def test_a_root_of_the_square_of_a_positive_coordinate_is_the_coordinate(read):
     assert sp.simplify(relation.stretches[1] - q ** (1 - a.symbol)) == 0
 
 
+def test_no_name_makes_a_coordinate_a_stretch_or_positive(read):
+    text = RELATION.replace('"q"\nlambda_1 = "q"', '"stretch"\nlambda_1 = "1 + stretch"')
+    text = text.replace("q^-a", "1 + stretch").replace("[load.", "start = 0\n[load.")
+    coordinate = describe(read(changed(LOAD, text))).load.relation.coordinate
+    assert (coordinate.value.role, coordinate.value.sign) == (Role.COORDINATE, Sign.ANY)
+
+
+def test_what_may_be_absent_or_negative_may_be_given_so(read):
+    """A mass may be zero, a spring may push, and a term of an energy may soften it."""
+    softening = 'material = "Mooney-Rivlin"\nshear_modulus = "18 kPa"\nsecond_modulus = "-3 kPa"\n'
+    found = describe(read(changed(GENT, softening, ATTACHED))).defaults
+    assert (found["edge_mass"], found["edge_stiffness"]) == (0.0, -2.0)
+    assert found["second_modulus_alpha"] == -3e3
+    with pytest.raises(ModelError, match=r"at rest must be positive and finite, its energy has -2000 Pa"):
+        read(changed(GENT, softening.replace("-3 kPa", "-20 kPa")))
+
+
 def test_ogden_terms_are_counted(read):
     terms = 'material = "ogden"\n' + "".join(
         f'ogden_modulus_{k} = "{m} kPa"\nogden_exponent_{k} = {a}\n'
@@ -189,7 +208,10 @@ FAULTS = [
     ("wrong unit", changed('"18 kPa"', '"18 kg"'), 9, "has a unit of dimension kg; needed is Pa"),
     ("unknown unit", changed('"18 kPa"', '"18 kilo"'), 9, "'kilo' is none of"),
     ("no unit", changed('"18 kPa"', '"18"'), 9, "must carry a unit"),
-    ("not positive", changed('"18 kPa"', '"-18 kPa"'), 9, "shear_modulus must be positive"),
+    ("not positive", changed('"18 kPa"', '"-18 kPa"'), 8, "the shear modulus of [equilibrium_spring] at rest must be "
+     "positive and finite, its energy has -18000 Pa"),
+    ("negative mass", ATTACHED.replace("0 g", "-1 g"), 20, "mass must be zero or positive, got '-1 g'"),
+    ("negative size", changed('"1 mm"', '"-1 mm"'), 5, "half_thickness must be positive, got '-1 mm'"),
     ("not finite", changed("density = 1200", "density = inf"), 6, "density must be finite"),
     ("a date", changed("density = 1200", "density = 1979-05-27"), 6, "density must be a number"),
     ("both times", changed('"400 s"', '"400 s"\nviscosity = 1'), 15, "has relaxation_time and viscosity"),
@@ -250,8 +272,6 @@ RELATION_FAULTS = [
      "lambda_1 has no finite slope at the start, q = 0"),
     ("steep", changed('"q"\nlambda_2 = "q^-a"', '"1 + q"\nlambda_2 = "1 + sqrt(q)"\nstart = 0', RELATION), 21,
      "lambda_2 has no finite slope at the start, q = 0"),
-    ("name of a stretch", RELATION.replace('"q"\nlambda_1 = "q"', '"stretch"\nlambda_1 = "1 + stretch"')
-     .replace("q^-a", "1 + stretch"), 19, "coordinate cannot be 'stretch': it may be zero"),
     ("start", changed('"q^-a"\n', '"q^-a"\nstart = nan\n', RELATION), 22, "start must be finite"),
     ("start with a unit", changed('"q^-a"\n', '"q^-a"\nstart = "1 m"\n', RELATION), 22, "needed is"),
     ("none at the start", changed('"q^-a"\n', '"q^-a"\nstart = 0\n', RELATION), 20, "positive and finite at the start"),

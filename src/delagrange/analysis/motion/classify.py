@@ -17,7 +17,7 @@ from delagrange.analysis.motion.observation import Observation
 from delagrange.analysis.motion.verdict import Verdict, decide, lost
 from delagrange.drives.drive import Drive
 from delagrange.drives.inputs import Inputs
-from delagrange.model.parameters import SHENG_2015, Parameters
+from delagrange.model.parameters import Parameters
 from delagrange.problem.dashpots import EVOLVING, FROZEN, RELAXED, dashpot_places, is_damped
 from delagrange.problem.status import COMPLETED, Limits
 
@@ -39,7 +39,7 @@ def classify(
     formulation: str | None = None,
     lateral_dashpot: str | None = None,
     held_stretch: float | None = None,
-    parameters: Parameters = SHENG_2015,
+    parameters: Parameters | None = None,
     initial_state: Mapping[str, float] | str | None = None,
     dashpots: str = FROZEN,
     limits: Limits = Limits(),  # noqa: B008  (frozen)

@@ -19,7 +19,7 @@ from delagrange.analysis.motion.observation import Observation, observe
 from delagrange.common.progress import progress_bar
 from delagrange.drives.drive import Drive
 from delagrange.drives.inputs import Inputs
-from delagrange.model.parameters import SHENG_2015, Parameters
+from delagrange.model.parameters import Parameters
 from delagrange.problem.dashpots import EVOLVING, FROZEN
 from delagrange.problem.status import Limits
 from delagrange.run.run_dataset import status_time_variable, status_variable, variable
@@ -107,7 +107,7 @@ def lyapunov_spectrum(
     formulation: str | None = None,
     lateral_dashpot: str | None = None,
     held_stretch: float | None = None,
-    parameters: Parameters = SHENG_2015,
+    parameters: Parameters | None = None,
     initial_state: Mapping[str, float] | None = None,
     dashpots: str = FROZEN,
     limits: Limits = Limits(),  # noqa: B008  (frozen)

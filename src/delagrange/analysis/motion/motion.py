@@ -18,8 +18,7 @@ from delagrange.engines.flow import Flow, FlowPath, drive_numbers, typical_sizes
 from delagrange.engines.flows import resolve_flow
 from delagrange.equilibrium.start import starting_state
 from delagrange.model.load import check_offers, load_model
-from delagrange.model.model_material import material_of
-from delagrange.model.parameters import Parameters
+from delagrange.model.parameters import Parameters, material_of
 from delagrange.problem.dashpots import FROZEN, frozen
 from delagrange.problem.initial import EQUILIBRIUM_MEANING, is_equilibrium
 from delagrange.problem.problem import Problem, input_name, make_problem
@@ -73,7 +72,7 @@ def make_motion(
     formulation: str | None,
     lateral_dashpot: str | None,
     held_stretch: float | None,
-    parameters: Parameters,
+    parameters: Parameters | None,
     initial_state: Mapping[str, float] | str | None,
     dashpots: str,
     choices: tuple[str, ...],

@@ -24,9 +24,9 @@ from delagrange.drives.inputs import (
 )
 from delagrange.model.load import load_model
 from delagrange.model.material import Material
-from delagrange.model.model_material import material_of
-from delagrange.model.parameters import Parameters
-from delagrange.problem.initial import PREFIX, checked_initial, is_stretch
+from delagrange.model.parameters import Parameters, material_of
+from delagrange.model.variables import is_stretch
+from delagrange.problem.initial import PREFIX, checked_initial
 from delagrange.problem.problem import Problem, make_problem
 from delagrange.problem.status import Limits
 from delagrange.run.grid import Grid, make_grid
@@ -46,7 +46,7 @@ class Cases:
     """Problems over a grid of what was given."""
 
     model: ModuleType
-    parameters: Parameters
+    parameters: Parameters | None
     grid: Grid
     initial_state: Mapping[str, float] | None
     limits: Limits
@@ -100,7 +100,7 @@ def make_cases(
     model: str | ModuleType,
     formulation: str | None,
     lateral_dashpot: str | None,
-    parameters: Parameters,
+    parameters: Parameters | None,
     initial_state: Mapping[str, float] | None,
     limits: Limits,
     values: Mapping[str, object],
@@ -120,6 +120,7 @@ def make_cases(
     others = _other_inputs(module, inputs, given[FORCE])
     material.check_names({name: value for name, value in given.items() if name not in _UNITS})
     checked = {name: _checked(name, value, material) for name, value in given.items()}
+    material.check_grid(checked)
     checked_initial(module, initial_state)
     if FORCE in others or (is_zero_number(checked[FORCE]) and not has_input(module, FORCE)):
         del checked[FORCE]

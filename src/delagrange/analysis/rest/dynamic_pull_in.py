@@ -22,7 +22,7 @@ from delagrange.equilibrium.pieces import FOLD, Piece, point_at
 from delagrange.equilibrium.statics import Statics, make_statics
 from delagrange.equilibrium.vibration import vibration
 from delagrange.model.load import check_offers
-from delagrange.model.parameters import SHENG_2015, Parameters
+from delagrange.model.parameters import Parameters
 from delagrange.problem.dashpots import EVOLVING, FROZEN, RELAXED, is_damped
 from delagrange.problem.problem import Problem
 from delagrange.problem.status import Limits
@@ -109,7 +109,7 @@ def dynamic_pull_in(
     engine: str = AUTO,
     formulation: str | None = None,
     lateral_dashpot: str | None = None,
-    parameters: Parameters = SHENG_2015,
+    parameters: Parameters | None = None,
     initial_state: Mapping[str, float] | None = None,
     limits: Limits | None = None,
     **material_changes: float | np.ndarray,

@@ -26,7 +26,7 @@ from delagrange.equilibrium.branches import all_pieces, limit_points, why_not_fr
 from delagrange.equilibrium.pieces import Piece
 from delagrange.equilibrium.statics import Statics, make_statics
 from delagrange.model.load import load_model
-from delagrange.model.parameters import SHENG_2015, Parameters
+from delagrange.model.parameters import Parameters
 from delagrange.problem.status import Limits
 from delagrange.run.run_dataset import variable
 
@@ -54,7 +54,7 @@ def equilibria(
     formulation: str | None = None,
     lateral_dashpot: str | None = None,
     held_stretch: float | None = None,
-    parameters: Parameters = SHENG_2015,
+    parameters: Parameters | None = None,
     initial_state: Mapping[str, float] | None = None,
     limits: Limits | None = None,
     **material_changes: float,

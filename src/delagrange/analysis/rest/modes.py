@@ -31,7 +31,7 @@ from delagrange.equilibrium.vibration import (
     vibration,
 )
 from delagrange.model.load import load_model
-from delagrange.model.parameters import SHENG_2015, Parameters
+from delagrange.model.parameters import Parameters
 from delagrange.problem.dashpots import FROZEN, RELAXED, is_damped
 from delagrange.problem.problem import Problem
 from delagrange.problem.status import Limits
@@ -50,7 +50,7 @@ def modes(
     held_stretch: float | np.ndarray | None = None,
     formulation: str | None = None,
     lateral_dashpot: str | None = None,
-    parameters: Parameters = SHENG_2015,
+    parameters: Parameters | None = None,
     initial_state: Mapping[str, float] | None = None,
     limits: Limits | None = None,
     **material_changes: float | np.ndarray,

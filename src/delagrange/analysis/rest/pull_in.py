@@ -31,7 +31,7 @@ from delagrange.equilibrium.branches import LIMIT_MEANING, connected_pieces, lim
 from delagrange.equilibrium.continuation import Lost, Point, parameter_of
 from delagrange.equilibrium.pieces import FOLD, Piece, locate_on
 from delagrange.equilibrium.statics import Statics, make_statics
-from delagrange.model.parameters import SHENG_2015, Parameters
+from delagrange.model.parameters import Parameters
 from delagrange.problem.dashpots import FROZEN, RELAXED
 from delagrange.problem.status import Limits
 from delagrange.run.run_dataset import variable
@@ -87,7 +87,7 @@ def pull_in(
     smallest_tension: float = 0.0,
     formulation: str | None = None,
     lateral_dashpot: str | None = None,
-    parameters: Parameters = SHENG_2015,
+    parameters: Parameters | None = None,
     initial_state: Mapping[str, float] | None = None,
     limits: Limits | None = None,
     **material_changes: float | np.ndarray,

@@ -32,8 +32,7 @@ from delagrange.engines.flows import resolve_flow
 from delagrange.equilibrium.continuation import ContinuationSettings
 from delagrange.equilibrium.statics import Statics, input_place, make_statics
 from delagrange.model.load import load_model
-from delagrange.model.model_material import material_of
-from delagrange.model.parameters import SHENG_2015, Parameters
+from delagrange.model.parameters import Parameters, material_of
 from delagrange.problem.dashpots import FROZEN, dashpot_places, is_damped
 from delagrange.problem.initial import PREFIX
 from delagrange.problem.problem import Problem, make_problem
@@ -59,7 +58,7 @@ def steady_response(
     held_stretch: float | None = None,
     formulation: str | None = None,
     lateral_dashpot: str | None = None,
-    parameters: Parameters = SHENG_2015,
+    parameters: Parameters | None = None,
     initial_state: Mapping[str, float] | None = None,
     period_multiple: int = 1,
     seeds: int | np.ndarray = 9,

@@ -22,8 +22,7 @@ from delagrange.equilibrium.seeds import equilibria_at
 from delagrange.equilibrium.statics import Statics, make_statics
 from delagrange.equilibrium.vibration import growing_directions
 from delagrange.model.load import load_model
-from delagrange.model.model_material import material_of
-from delagrange.model.parameters import SHENG_2015, Parameters
+from delagrange.model.parameters import Parameters, material_of
 from delagrange.problem import status as loss
 from delagrange.problem.dashpots import FROZEN, RELAXED, given_state, is_damped
 from delagrange.problem.problem import Problem, make_problem
@@ -76,7 +75,7 @@ def stepped_sweep(
     held_stretch: float | None = None,
     formulation: str | None = None,
     lateral_dashpot: str | None = None,
-    parameters: Parameters = SHENG_2015,
+    parameters: Parameters | None = None,
     initial_state: Mapping[str, float] | None = None,
     tolerance: float = 1e-10,
     engine: str = "auto",
