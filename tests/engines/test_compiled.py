@@ -49,7 +49,7 @@ def run(engine, model, force, field, *, rtol=1e-10, duration=8e-3, samples=None,
     """
     module = dl.load_model(model)
     held = options.get("held", HELD[model])
-    problem = make_problem(module, dl.SHENG_2015, materials or {}, held, force, field)
+    problem = make_problem(module, None, materials or {}, held, force, field)
     lanes = max(map(np.size, (*problem.parameters, *problem.inputs(0.0))))
     reference = np.asarray(module.reference_state(problem.parameters), dtype=float)
     state = options.get(
@@ -257,7 +257,7 @@ def test_the_dataset_says_what_integrated_it():
 
 def test_progress_grows_to_the_number_of_lanes():
     seen, model = [], dl.load_model("equal_biaxial")
-    problem = make_problem(model, dl.SHENG_2015, {}, None, 0.2, dl.Sine(np.full(3, 1e6), 300.0))
+    problem = make_problem(model, None, {}, None, 0.2, dl.Sine(np.full(3, 1e6), 300.0))
     state = np.repeat(np.array([[1.0], [0.0], [1.0]]), 3, axis=1)
     numerics = Numerics("DOP853", "compiled", "pi", "dense")
     integrate_compiled(
@@ -334,7 +334,7 @@ def test_the_first_and_the_last_sample_are_the_ends_of_the_run(duration, count, 
 def test_samples_begin_late_and_lie_closer_than_steps():
     """Hundreds in a step, and none where the first lies beyond the duration."""
     module = dl.load_model("equal_biaxial")
-    problem = make_problem(module, dl.SHENG_2015, {}, None, 0.3, dl.Sine(np.full(3, 3e6), 300.0))
+    problem = make_problem(module, None, {}, None, 0.3, dl.Sine(np.full(3, 3e6), 300.0))
     state, numerics = (
         np.repeat([[1.0], [0.0], [1.0]], 3, axis=1),
         Numerics("DOP853", "compiled", "pi", "dense"),
@@ -459,7 +459,7 @@ def test_mean_and_root_mean_square_of_a_known_motion(push, frequency, phase, beg
         "permittivity": 1e-20,
     }  # fmt: skip
     module, turn, duration = dl.load_model("equal_biaxial"), 2 * np.pi * frequency, 0.01
-    problem = make_problem(module, dl.SHENG_2015, flat, None, 1.0, 0.0)
+    problem = make_problem(module, None, flat, None, 1.0, 0.0)
     acceleration = (
         push * 1e4 / module.rhs(module.reference_state(problem.parameters), (1.0, 0.0), problem.parameters)[1]
     )

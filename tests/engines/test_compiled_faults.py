@@ -335,7 +335,7 @@ def test_what_had_ended_before_an_interruption_is_whole(monkeypatch):
     """Steps that wait to be looked into when the sweep is interrupted belong to runs that have ended."""
     lanes, model = 2000, dl.load_model("equal_biaxial")
     field = dl.Sine(np.full(lanes, 3e6), np.linspace(100.0, 800.0, lanes))
-    problem = make_problem(model, dl.SHENG_2015, {}, None, 0.5, field)
+    problem = make_problem(model, None, {}, None, 0.5, field)
     state = np.repeat(np.array([[1.0], [0.0], [1.0]]), lanes, axis=1)
     numerics = Numerics("DOP853", "compiled", "pi", "dense")
     chosen = make_settings(0.1, None, 1e-9, 1e-12, numerics, dl.Limits(), threads=1)

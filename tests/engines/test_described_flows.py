@@ -39,7 +39,7 @@ def leaky(tmp_path_factory):
 
 
 def path_of(model, load, tolerance=1e-11, **material) -> FlowPath:
-    problem = make_problem(model, dl.SHENG_2015, material, None, load["force"], load["field"])
+    problem = make_problem(model, None, material, None, load["force"], load["field"])
     return FlowPath(problem, typical_sizes(problem), tolerance)
 
 
@@ -144,11 +144,11 @@ def test_the_kernel_of_a_membrane_without_limits_knows_none(stiffening, leaky):
 
 def test_the_size_of_a_charge_is_that_which_strains_the_membrane_by_one(leaky):
     """Of n springs of moduli mu_i: 12 sum mu_i of stiffness against 2 D^2 / epsilon of pull, by hand."""
-    problem = make_problem(leaky, dl.SHENG_2015, {}, None, 0.0, 0.0)
+    problem = make_problem(leaky, None, {}, None, 0.0, 0.0)
     place = [entry.name for entry in leaky.STATE].index("nominal_charge_density")
     sizes = typical_sizes(problem)
     assert sizes[place] == pytest.approx(np.sqrt(6 * (1.8e4 + 4.2e4) * 60e-12), rel=1e-9)
-    sizes = typical_sizes(make_problem(leaky, dl.SHENG_2015, {"permittivity": 6e-9}, None, 0.0, 0.0))
+    sizes = typical_sizes(make_problem(leaky, None, {"permittivity": 6e-9}, None, 0.0, 0.0))
     assert sizes[place] == pytest.approx(np.sqrt(6 * (1.8e4 + 4.2e4) * 6e-9), rel=1e-9)
 
 
@@ -156,7 +156,7 @@ def test_the_size_of_a_charge_is_that_which_strains_the_membrane_by_one(leaky):
 def test_a_charge_is_as_exact_as_the_stretches(leaky, follow):
     """Under a current of 30 kHz, whose steps the charge alone asks for: the membrane vibrates at 900 Hz."""
     inputs = {"nominal_current_density": dl.Sine(100.0, 3e4)}  # [A/m^2]
-    problem = make_problem(leaky, dl.SHENG_2015, {}, None, 0.0, 0.0, inputs)
+    problem = make_problem(leaky, None, {}, None, 0.0, 0.0, inputs)
     sizes, times = typical_sizes(problem), np.linspace(0.0, 1.05e-3, 7)
     start = np.asarray(leaky.reference_state(problem.parameters), dtype=float)
     loose, exact = (

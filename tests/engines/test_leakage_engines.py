@@ -110,7 +110,7 @@ def test_a_sweep_of_the_current_by_command(leaky, tmp_path, capsys):
 
 def test_tangents_of_the_variational_kernel_are_those_of_scipy(leaky):
     drives = {CURRENT: dl.Sine(0.05, 200.0)}
-    problem = frozen(make_problem(leaky, dl.SHENG_2015, {}, None, 0.1, 0.0, drives))
+    problem = frozen(make_problem(leaky, None, {}, None, 0.1, 0.0, drives))
     path = FlowPath(problem, np.array([1.0, 5e3, 1.0, 1e-3]), 1e-11)
     times = np.linspace(0.0, 0.01, 5)
     given_ = (path, np.array([1.0, 0.0, 1.0, 1e-4]), times, np.eye(4))

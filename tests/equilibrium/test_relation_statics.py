@@ -95,7 +95,7 @@ def test_its_equilibria_are_all_the_zeros_of_the_emitted_rate(strained, force):
     limits = dl.Limits(0.05, 20.0)
     for field in (0.0, 2e7):
         found = dl.equilibria(strained, field=field, inputs={"force": force}, limits=limits)
-        problem = make_problem(strained, dl.SHENG_2015, {}, None, 0.0, field, {"force": force})
+        problem = make_problem(strained, None, {}, None, 0.0, field, {"force": force})
 
         def acceleration(value, problem=problem):
             return float(problem.rhs(0.0, np.array([value, 0.0]))[1])
@@ -114,7 +114,7 @@ def test_its_equilibria_are_all_the_zeros_of_the_emitted_rate(strained, force):
 def test_a_chart_goes_there_and_back(strained, equal):
     for model, reference in ((strained, -0.2), (equal, 0.0)):
         problem = make_problem(
-            model, dl.SHENG_2015, {"scale": 1e-4} if model is equal else {}, None, 0.0, 0.0
+            model, None, {"scale": 1e-4} if model is equal else {}, None, 0.0, 0.0
         )
         chart = make_chart(problem, np.array([0]))
         assert not chart.logarithmic[0]
@@ -129,7 +129,7 @@ def test_a_chart_goes_there_and_back(strained, equal):
 
 def test_the_size_of_a_coordinate_strains_the_membrane_by_about_one_half(equal):
     for scale in (1e-6, 1.0, 3e5):
-        problem = make_problem(equal, dl.SHENG_2015, {"scale": scale}, None, 0.0, 0.0)
+        problem = make_problem(equal, None, {"scale": scale}, None, 0.0, 0.0)
         size = make_chart(problem, np.array([0])).size[0]
         assert 0.5 <= -2 * np.log(1 - scale * size) <= 1.0  # of the thickness, where the stretches shrink
         rest = np.asarray(equal.reference_state(problem.parameters), dtype=float)

@@ -98,7 +98,7 @@ def test_the_kind_of_a_motion(membrane):
 
 
 def test_frozen_dashpots_of_all_branches_stand_still(membrane):
-    problem = frozen(make_problem(membrane, dl.SHENG_2015, {}, None, 0.0, 1e6, {"force_2": 0.3}))
+    problem = frozen(make_problem(membrane, None, {}, None, 0.0, 1e6, {"force_2": 0.3}))
     state = np.array([1.2, 0.9, 3.0, -2.0, 1.1, 0.9, 1.3, 0.8])
     np.testing.assert_array_equal(problem.rhs(0.0, state)[4:], 0.0)
     np.testing.assert_array_equal(problem.jacobian(0.0, state)[4:], 0.0)

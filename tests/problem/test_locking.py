@@ -59,7 +59,7 @@ def driven(model, lanes: int, force: float, field: float) -> tuple[Problem, np.n
     rng = np.random.default_rng(1)
     pull, push, often = (rng.uniform(0.0, 1.0, lanes) for _ in range(3))
     load = dl.Constant(force * pull), dl.Sine(field * push, 2000.0 * often)
-    return make_problem(model, dl.SHENG_2015, {}, None, *load), np.tile([[1.0], [0.0]], lanes)
+    return make_problem(model, None, {}, None, *load), np.tile([[1.0], [0.0]], lanes)
 
 
 def room(problem: Problem, stretch: np.ndarray) -> np.ndarray:
@@ -140,7 +140,7 @@ def test_gentle_lanes_complete_as_they_do_by_numpy(stiffening):
 
 def thrown(model, speeds) -> tuple[Problem, np.ndarray]:
     """Lanes without load that set out from the reference state at some speeds [1/s]."""
-    problem = make_problem(model, dl.SHENG_2015, {}, None, 0.0, dl.Constant(np.zeros(len(speeds))))
+    problem = make_problem(model, None, {}, None, 0.0, dl.Constant(np.zeros(len(speeds))))
     return problem, np.stack([np.ones(len(speeds)), speeds])
 
 

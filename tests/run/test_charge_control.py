@@ -232,7 +232,7 @@ def test_what_damps_beside_frozen_dashpots(folder, damped):
 
 def loaded(model: ModuleType, drive: object = 0.0) -> Problem:
     inputs = {CHARGE: drive} if model.INPUTS[-1].name == CHARGE else {}
-    return make_problem(model, dl.SHENG_2015, {}, None, 0.0, 0.0, inputs)
+    return make_problem(model, None, {}, None, 0.0, 0.0, inputs)
 
 
 # --- motion ------------------------------------------------------------------------------------------
@@ -305,7 +305,7 @@ def test_periodic_motions_under_a_sine_of_the_charge_come_back(damped, steady):
     assert float(point["period"]) == pytest.approx(1 / (2 * frequency))  # the charge enters squared
     state = np.array([float(point[entry.name]) for entry in damped.STATE])
     viscous = {"viscosity_1": np.inf, "viscosity_2": np.inf}  # frozen
-    parameters = make_problem(damped, dl.SHENG_2015, {}, None, 0.0, 0.0).parameters
+    parameters = make_problem(damped, None, {}, None, 0.0, 0.0).parameters
     frozen = [viscous.get(entry.name, value) for entry, value in zip(damped.PARAMETERS, parameters)]
 
     def rates(time, at):

@@ -276,7 +276,7 @@ def test_an_interruption_inside_a_chunk_carries_the_lanes_that_had_ended(monkeyp
             raise KeyboardInterrupt
 
     model = dl.load_model("equal_biaxial")
-    problem = make_problem(model, dl.SHENG_2015, {}, None, 0.0, dl.Constant(np.array([3e7, 1e6])))
+    problem = make_problem(model, None, {}, None, 0.0, dl.Constant(np.array([3e7, 1e6])))
     state = np.repeat(model.reference_state(problem.parameters)[:, None], 2, axis=1)
     settings = make_settings(5e-3, None, 1e-8, 1e-11, NUMERICS, dl.Limits())
     with pytest.raises(Interrupted) as interruption:
@@ -289,7 +289,7 @@ def test_an_interruption_inside_a_chunk_carries_the_lanes_that_had_ended(monkeyp
 def test_progress_moves_while_a_chunk_runs():
     seen = []
     model = dl.load_model("equal_biaxial")
-    problem = make_problem(model, dl.SHENG_2015, {}, None, 0.2, dl.Constant(np.array([1e6, 2e6])))
+    problem = make_problem(model, None, {}, None, 0.2, dl.Constant(np.array([1e6, 2e6])))
     state = np.repeat(model.reference_state(problem.parameters)[:, None], 2, axis=1)
     settings = make_settings(2e-3, None, 1e-8, 1e-11, NUMERICS, dl.Limits())
     integrate_lanes(problem, state, settings, report=seen.append)

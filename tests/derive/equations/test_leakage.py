@@ -177,7 +177,7 @@ def test_no_charge_is_there_that_nobody_brings():
 
 def test_frozen_dashpots_freeze_no_charge():
     module = emitted("current", UNIAXIAL)
-    free = make_problem(module, dl.SHENG_2015, {}, None, 0.2, 0.0, {CURRENT: 0.03})
+    free = make_problem(module, None, {}, None, 0.2, 0.0, {CURRENT: 0.03})
     state = moving_state(module, 5)
     rate = frozen(free).rhs(0.0, state)
     np.testing.assert_array_equal(rate[dashpot_places(module)], 0.0)
@@ -248,9 +248,8 @@ def read(tmp_path, text: str):
     [
         ('control = "charge"', 'control = "voltage"', "line 17: conductivity needs control = 'charge'"),
         ('control = "charge"\n', "", "line 16: conductivity needs control = 'charge'"),
-        ("6 nS/m", "-6 nS/m", "line 17: conductivity must be positive, got '-6 nS/m'"),
+        ("6 nS/m", "-6 nS/m", "line 17: conductivity must be zero or positive, got '-6 nS/m'"),
         ("6 nS/m", "6 nS", "line 17: conductivity = '6 nS' has a unit of dimension .*; needed is S/m"),
-        ('"6 nS/m"', "0", "line 17: conductivity must be positive, got 0 S/m"),
         ('"6 nS/m"', "inf", "line 17: conductivity must be finite"),
         ("conductivity", "conductivty", r"unknown key 'conductivty' .*did you mean 'conductivity'\?"),
     ],
@@ -281,7 +280,7 @@ def test_a_conductivity_of_another_unit_is_refused():
         ({"inputs": {CHARGE: 1e-4}}, "unknown input 'nominal_charge_density'"),
         ({"initial_state": [1.0, 0.0, 1.0]}, r"must hold 4 values .*nominal_charge_density \[C/m\^2\]"),
         ({"initial_state": [1.0, 0.0, 1.0, np.nan]}, "must be finite"),
-        ({"conductivity": np.inf}, "conductivity must be finite, got inf S/m"),
+        ({"conductivity": np.inf}, "conductivity must be zero or positive and finite, got inf S/m"),
     ],
 )
 def test_a_run_that_makes_no_sense_is_refused(given_, says):
@@ -298,3 +297,9 @@ def test_a_charge_may_be_negative_or_none(start):
 def test_siemens_are_amperes_over_volts():
     assert Dimension.of_unit("S") == Dimension.of_unit("A/V")
     assert Dimension.of_unit("F/m") / Dimension.of_unit("S/m") == Dimension.of_unit("s")
+
+
+def test_a_membrane_may_be_said_to_leak_nothing(tmp_path):
+    path = tmp_path / "leaky.toml"
+    path.write_text(LEAKY_FILE.replace('"6 nS/m"', "0"), encoding="utf-8")
+    assert describe(read_model_file(path)).defaults["conductivity"] == 0.0
