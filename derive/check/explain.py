@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 import sympy as sp
 
+from delagrange.common.roles import Role
 from delagrange.derive.check.compare import Witness, alike, compare, may_agree, printed_residual, scaling
 from delagrange.derive.equations.derived_equations import DerivedEquation
 from delagrange.derive.notation.printer import text_printer
@@ -25,6 +26,8 @@ from delagrange.derive.printed.tree import (
 from delagrange.derive.printed.values import to_sympy
 
 Monomials = dict[sp.Expr, sp.Expr]  # what varies -> its number
+
+_TELL_THE_SCALE = (Role.FORCE, Role.REACTION, Role.MODULUS, Role.CONSTANT)
 
 
 def _monomials(expression: sp.Expr) -> Monomials:
@@ -92,11 +95,11 @@ def fewest_unmatched(tree: Equation, derived: DerivedEquation) -> Unmatched:
 
 
 def _other_scalings(tree: Equation, derived: DerivedEquation) -> Iterator[sp.Expr]:
-    """Ratios of the coefficients of forces and moduli, where they are single terms."""
+    """Ratios of the coefficients of forces, moduli and constants of own energies, where they are single terms."""
     printed = printed_residual(tree)
     for each in derived.quantities:
         slope = derived.residual.diff(each.symbol)
-        if each.unit not in ("N", "Pa") or slope == 0:
+        if each.role not in _TELL_THE_SCALE or slope == 0:
             continue
         ratio = sp.factor(sp.cancel(sp.together(printed.diff(each.symbol) / slope)))
         if ratio != 0 and not ratio.has(sp.Add, sp.zoo, sp.nan):

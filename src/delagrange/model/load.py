@@ -3,7 +3,8 @@
 A model is the generated module itself: data (`STATE`, `INPUTS`, `PARAMETERS`, ...) and functions
 (`rhs`, `jacobian`, energies, ...) of state, inputs and parameters. Nothing wraps it, so a module
 that someone copied or wrote by hand runs just as well, as far as it offers what a run asks of it:
-`jacobian` for an implicit method, `kinetic_energy` and the like for energies.
+`jacobian` for an implicit method, `kinetic_energy` and the like for energies. Where its variables do not say
+what they are and which signs they may have, `delagrange.model.variables` has the rule.
 """
 
 from __future__ import annotations
