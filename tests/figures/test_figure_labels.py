@@ -9,7 +9,8 @@ from matplotlib import pyplot
 
 import delagrange as dl
 from delagrange.figures.modes_figure import draw_modes
-from delagrange.figures.steady_figure import draw_steady, draw_transient
+from delagrange.figures.steady_figure import draw_steady
+from delagrange.figures.sweep_figure import draw_sweep
 
 PULLED = {"force_1": 0.1, "force_2": 0.3}
 LOADS = "P₁ = 0.1 N, P₂ = 0.3 N"
@@ -43,26 +44,26 @@ def response(model, **loads):
 
 
 def test_a_transient_has_the_symbol_and_the_forces_of_the_model(plate):
-    axes = draw_transient(response(plate, inputs=PULLED), "frequency").axes[0]
+    axes = draw_sweep(response(plate, inputs=PULLED), "frequency").axes[0]
     assert axes.get_ylabel() == r"amplitude of $\lambda_1$ [1]"
     assert LOADS in axes.get_title(loc="right") and "P = " not in axes.get_title(loc="right")
 
 
 def test_a_coordinate_that_is_no_stretch_is_not_called_one(folder):
     hencky = derived(folder, "hencky", control=VOLTAGE, load=RELATION)
-    axes = draw_transient(response(hencky, force=0.2), "frequency").axes[0]
+    axes = draw_sweep(response(hencky, force=0.2), "frequency").axes[0]
     assert axes.get_ylabel() == "amplitude of $h$ [1]"
     assert "P = 0.2 N" in axes.get_title(loc="right")
 
 
 def test_the_paper_s_membranes_keep_its_symbols():
-    axes = draw_transient(response("equal_biaxial", force=0.2), "frequency").axes[0]
+    axes = draw_sweep(response("equal_biaxial", force=0.2), "frequency").axes[0]
     assert axes.get_ylabel() == r"amplitude of $\lambda_\mathrm{EB}$ [1]"
     assert axes.get_title(loc="right") == "equal biaxial: P = 0.2 N, E₀ = 1 MV/m"
 
 
 def test_a_response_of_which_every_run_is_lost_says_so_over_its_frequencies():
-    axes = draw_transient(response("equal_biaxial", force=1e4), "frequency").axes[0]
+    axes = draw_sweep(response("equal_biaxial", force=1e4), "frequency").axes[0]
     assert "every run was lost" in [text.get_text() for text in axes.texts]
     assert axes.get_xlim() == (100.0, 110.0)
 

@@ -10,13 +10,13 @@ import pytest
 import xarray as xr
 from matplotlib.text import Text
 
+from delagrange.figures.amplitude_axis import lost_places
 from delagrange.figures.style import journal_style
 from delagrange.reproduction.figures.gallery import NUMBERS, draw_all, draw_figures
 from delagrange.reproduction.figures.history_figure import draw_history, history_data
 from delagrange.reproduction.figures.phase_figure import MAP, PATH, draw_phase, part_of, phase_data
 from delagrange.reproduction.figures.response_figure import (
     draw_response,
-    lost_frequencies,
     peaks_of,
     response_data,
 )
@@ -154,7 +154,7 @@ def test_lost_points_are_marked_and_only_they(drawn, runs):
                 frequency
                 for load in panel.loads
                 for numerics in NUMERICS
-                for frequency in lost_frequencies(curve(own.sel(numerics=numerics.name), load))
+                for frequency in lost_places(curve(own.sel(numerics=numerics.name), load))
             ]
             assert crosses(axes) == sorted(expected)
             total += len(expected)

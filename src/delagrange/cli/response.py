@@ -191,10 +191,11 @@ def _drawing(
     quiet: bool,
 ) -> Callable[[], Figure]:
     """What draws the result, with what is to stand beside it computed."""
-    from delagrange.figures.steady_figure import draw_steady, draw_transient
+    from delagrange.figures.steady_figure import draw_steady
+    from delagrange.figures.sweep_figure import draw_sweep
 
     if "branch" not in result.dims:
-        return lambda: draw_transient(result, varied)
+        return lambda: draw_sweep(result, varied)
     transient = _transient(model, load, varied, common, duration, quiet)
     stepped = _stepped(model, load, common, quiet) if sweeps else ()
     return lambda: draw_steady(result, transient, stepped)

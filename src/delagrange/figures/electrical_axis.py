@@ -1,4 +1,4 @@
-"""How the electrical input of a result is written on axes and in captions: the nominal field, or the nominal charge."""
+"""How the electrical input of a result is written on axes and in captions: the nominal field, charge or current."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import xarray as xr
 
-from delagrange.drives.inputs import ELECTRIC_FIELD, ELECTRICAL, ElectricalInput
+from delagrange.drives.inputs import CHARGE_DENSITY, CURRENT_DENSITY, ELECTRIC_FIELD, ElectricalInput
 
 
 @dataclass(frozen=True)
@@ -39,12 +39,8 @@ class ElectricalAxis:
 
 
 FIELD_AXIS = ElectricalAxis(ELECTRIC_FIELD, "MV/m", 1e6)
-_OTHERS = {
-    name: ElectricalAxis(each, "mC/m²", 1e-3)
-    for name, each in ELECTRICAL.items()
-    if each is not ELECTRIC_FIELD
-}
-AXES = {ELECTRIC_FIELD.name: FIELD_AXIS, **_OTHERS}
+_OTHERS = (ElectricalAxis(CHARGE_DENSITY, "mC/m²", 1e-3), ElectricalAxis(CURRENT_DENSITY, "mA/m²", 1e-3))
+AXES = {axis.electrical.name: axis for axis in (FIELD_AXIS, *_OTHERS)}
 
 
 def electrical_axis(data: xr.Dataset) -> ElectricalAxis:

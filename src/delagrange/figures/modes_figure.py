@@ -7,22 +7,13 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from delagrange.figures.electrical_axis import AXES, electrical_axis
+from delagrange.figures.electrical_axis import electrical_axis
 from delagrange.figures.equilibrium_figure import model_text
+from delagrange.figures.quantities import LOADS, shown_as
 from delagrange.figures.style import BLACK, BLUE, ORANGE, SKY_BLUE, VERMILION, caption, new_figure
 
-_LABELS = {
-    **{along.name: (along.label, along.size) for along in AXES.values()},
-    "force": (r"force $P$ [N]", 1.0),
-    "held_stretch": (r"held stretch $\lambda_\mathrm{2p}$ [1]", 1.0),
-}
 _COLOURS = (BLACK, VERMILION, BLUE, ORANGE, SKY_BLUE)
 _STYLES = ("-", (0, (4, 1.5)), (0, (1, 1.5)))
-_SHORT = {
-    **{along.name: (f"${along.symbol}$", along.unit, along.size) for along in AXES.values()},
-    "force": ("$P$", "N", 1.0),
-    "held_stretch": (r"$\lambda_\mathrm{2p}$", "", 1.0),
-}
 
 
 def draw_modes(found: xr.Dataset) -> Figure:
@@ -44,7 +35,7 @@ def draw_modes(found: xr.Dataset) -> Figure:
     figure = new_figure(height=3.6)
     axes = figure.subplots()
     _draw_curves(axes, found, along, others)
-    axes.set_xlabel(_label(found, along)[0])
+    axes.set_xlabel(shown_as(found, along).label)
     axes.set_ylabel(r"natural frequency $f_n$ [Hz]")
     axes.set_ylim(bottom=0.0)
     axes.margins(x=0.0)
@@ -57,28 +48,18 @@ def draw_modes(found: xr.Dataset) -> Figure:
 
 
 def _draw_curves(axes: Axes, found: xr.Dataset, along: str, others: list[str]) -> None:
-    _, size = _label(found, along)
-    x = found[along].values / size
+    x = found[along].values / shown_as(found, along).size
     shape = [found.sizes[name] for name in others]
     for number, place in enumerate(np.ndindex(*shape)):
         here = found.isel(dict(zip(others, place)))
         for mode in range(found.sizes["mode"]):
             name = f"mode {mode + 1}" if found.sizes["mode"] > 1 else ""
-            text = ", ".join(filter(None, [name, *(_value(here, other) for other in others)]))
+            fixed = [shown_as(here, other).value(float(here[other])) for other in others]
+            text = ", ".join(filter(None, [name, *fixed]))
             axes.plot(
                 x, here["frequency"].isel(mode=mode), color=_COLOURS[number % len(_COLOURS)],
                 linestyle=_STYLES[mode % len(_STYLES)], label=text or "$f_n$",
             )  # fmt: skip
-
-
-def _label(found: xr.Dataset, name: str) -> tuple[str, float]:
-    unit = found[name].attrs["units"]
-    return _LABELS.get(name, (f"{found[name].attrs['long_name']} [{unit}]", 1.0))
-
-
-def _value(here: xr.Dataset, name: str) -> str:
-    symbol, unit, size = _SHORT.get(name, (name.replace("_", " "), here[name].attrs["units"], 1.0))
-    return f"{symbol} = {float(here[name]) / size:g} {unit}".strip()
 
 
 def _caption(found: xr.Dataset) -> str:
@@ -86,14 +67,10 @@ def _caption(found: xr.Dataset) -> str:
     if bool(found["frequency"].isnull().any()):
         ended = "Where a curve ends there is no equilibrium, as beyond pull-in. "
     along = electrical_axis(found)
+    loads = ("force", "force_1", "force_2", along.name)
     single = [
-        f"{symbol} = {float(found[name]) / size:g} {unit}"
-        for name, (symbol, unit, size) in {
-            "force": ("P", "N", 1.0),
-            "force_1": ("P₁", "N", 1.0),
-            "force_2": ("P₂", "N", 1.0),
-            along.name: (along.symbol, along.unit, along.size),
-        }.items()
+        LOADS[name].value(float(found[name]), plain=True)
+        for name in loads
         if name in found and found[name].ndim == 0
     ]
     at = "".join(f", {text}" for text in single)

@@ -7,6 +7,7 @@ import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from delagrange.figures.quantities import symbol_in_tex
 from delagrange.figures.style import (
     BLACK,
     BLUE,
@@ -72,11 +73,7 @@ def _widen(axes: Axes, x: float, y: float) -> None:
 
 
 def _quantity(data: xr.DataArray) -> str:
-    symbol = data.attrs.get("symbol", "")
-    names = {"λ": r"\lambda", "λ̇": r"\dot\lambda", "ξ": r"\xi"}
-    stem, _, index = symbol.partition("_")
-    text = rf"${names[stem]}_\mathrm{{{index}}}$" if stem in names and index else symbol
-    return f"{text} [{data.attrs['units']}]"
+    return f"${symbol_in_tex(data.attrs.get('symbol', ''))}$ [{data.attrs['units']}]"
 
 
 def _draw_exponents(axes: Axes, motion: xr.Dataset) -> None:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
 
 @dataclass(frozen=True)
 class Notation:
@@ -44,3 +46,9 @@ NOTATION = {
     "uniaxial": Notation("Uniaxial force", "stretch_1", "stretch_rate_1", "inelastic_stretch_1", "UA1"),
     "pure_shear": Notation("Pure shear", "stretch", "stretch_rate", "inelastic_stretch", "PS"),
 }
+
+
+def integrator_text(method: str, rtol: float, atol: float) -> str:
+    """`DOP853, rtol 1e-9, atol 1e-12`."""
+    relative, absolute = (np.format_float_scientific(value, trim="-", exp_digits=1) for value in (rtol, atol))
+    return f"{method}, rtol {relative}, atol {absolute}"

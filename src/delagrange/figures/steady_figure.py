@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
@@ -21,7 +20,8 @@ from delagrange.analysis.steady.floquet import (
     TORUS,
     UNSTABLE,
 )
-from delagrange.figures.notation import FREQUENCY_LABEL, NOTATION
+from delagrange.figures.amplitude_axis import amplitude_label, say_empty
+from delagrange.figures.quantities import LOADS, model_title, single_loads
 from delagrange.figures.style import (
     BLACK,
     BLUE,
@@ -33,24 +33,8 @@ from delagrange.figures.style import (
     new_figure,
     panel_letter,
 )
+from delagrange.figures.sweep_figure import amplitude_text
 
-X_LABELS = {
-    "frequency": FREQUENCY_LABEL,
-    "force": r"force $P$ [N]",
-    "field_amplitude": r"amplitude of the field $E_0$ [MV/m]",
-    "field_bias": r"bias of the field $E_\mathrm{b}$ [MV/m]",
-    "charge_amplitude": r"amplitude of the charge $D_0$ [mC/m$^2$]",
-    "charge_bias": r"bias of the charge $D_\mathrm{b}$ [mC/m$^2$]",
-}
-_SHOWN = {
-    "force": ("P", "N", 1.0),
-    "field_amplitude": ("E₀", "MV/m", 1e6),
-    "charge_amplitude": ("D₀", "mC/m²", 1e-3),
-    "field_bias": ("E_b", "MV/m", 1e6),
-    "charge_bias": ("D_b", "mC/m²", 1e-3),
-    "frequency": ("f", "Hz", 1.0),
-}  # symbol, unit that is shown, and its size in SI units
-_X_SIZES = {name: size for name, (_, _, size) in _SHOWN.items()}
 _LINES = {
     NEUTRAL: {"color": BLUE, "linestyle": "-", "label": "periodic, neutral"},
     STABLE: {"color": BLUE, "linestyle": "-", "label": "periodic, stable"},
@@ -89,58 +73,26 @@ def draw_steady(
             _draw_sweep(axes, sweep)
         _draw_bifurcations(axes, steady, varied)
         panel_letter(axes, letter)
-        axes.set_ylabel(_amplitude_label(steady))
+        axes.set_ylabel(amplitude_label(steady))
         axes.margins(x=0.0)
     if not steady.sizes["point"]:
-        _say_empty(all_axes[0])
+        say_empty(all_axes[0], "no periodic motion found")
     largest = _largest(steady, transient, sweeps)
     all_axes[0].set_ylim(0.0, largest)
-    all_axes[0].set_title(_load_text(steady), loc="right", fontsize=8.0, pad=3.0)
+    all_axes[0].set_title(model_title(steady, _loads(steady)), loc="right", fontsize=8.0, pad=3.0)
     all_axes[1].set_yscale("log")
     all_axes[1].set_ylim(_smallest(steady, transient), _shown_top(steady))
-    all_axes[1].set_xlabel(X_LABELS[varied])
+    all_axes[1].set_xlabel(LOADS[varied].label)
     entries = _entries(steady, transient, sweeps)
     figure.legend(handles=entries, loc="outside upper center", ncols=min(len(entries), 4), columnspacing=1.2)
     caption(figure, _caption(steady, transient, sweeps))
     return figure
 
 
-def _say_empty(axes: Axes, why: str = "no periodic motion found") -> None:
-    axes.text(0.5, 0.5, why, transform=axes.transAxes, ha="center", va="center")
-
-
-def draw_transient(transient: xr.Dataset, varied: str) -> Figure:
-    """The transient amplitude alone."""
-    figure = new_figure(height=3.4)
-    axes = figure.subplots()
-    x = transient[varied].values / _X_SIZES[varied]
-    axes.plot(x, transient["amplitude"], color=BLACK)
-    axes.set_xlabel(X_LABELS[varied])
-    axes.set_ylabel(_amplitude_label(transient))
-    axes.margins(x=0.0)
-    if not transient["amplitude"].notnull().any():
-        axes.set_xlim(x.min(), x.max())
-        _say_empty(axes, "every run was lost")
-    axes.set_ylim(bottom=0.0)
-    axes.set_title(_transient_load(transient, varied), loc="right", fontsize=8.0)
-    caption(figure, _transient_text(transient))
-    return figure
-
-
-def _amplitude_label(data: xr.Dataset) -> str:
-    """As the paper writes the stretch of its load cases; of any other, the symbol of the first coordinate."""
-    load_case = str(data.attrs["load_case"])
-    for name, notation in NOTATION.items():
-        if load_case.startswith(name):
-            return notation.amplitude_label
-    symbol, unit = data["amplitude"].attrs["symbol"], data["amplitude"].attrs["units"]
-    return f"amplitude of ${symbol.replace('λ', chr(92) + 'lambda')}$ [{unit}]"
-
-
 def _draw_branches(axes: Axes, steady: xr.Dataset, varied: str) -> None:
     for number in range(steady.sizes["branch"]):
         one = steady.isel(point=np.flatnonzero(steady["branch_number"].values == number))
-        x, y = one[varied].values / _X_SIZES[varied], one["amplitude"].values
+        x, y = one[varied].values / LOADS[varied].size, one["amplitude"].values
         for name, piece in pieces(one["stability"].values):
             axes.plot(x[piece], y[piece], **{**_LINES[name], "label": None})
 
@@ -154,7 +106,7 @@ def pieces(names: np.ndarray) -> Iterator[tuple[str, slice]]:
 
 def _draw_transient(axes: Axes, transient: xr.Dataset | None, varied: str) -> None:
     if transient is not None:
-        axes.plot(transient[varied] / _X_SIZES[varied], transient["amplitude"], **_TRANSIENT)
+        axes.plot(transient[varied] / LOADS[varied].size, transient["amplitude"], **_TRANSIENT)
 
 
 def _draw_sweep(axes: Axes, sweep: xr.Dataset) -> None:
@@ -171,7 +123,7 @@ def _is_up(sweep: xr.Dataset) -> bool:
 
 def _draw_bifurcations(axes: Axes, steady: xr.Dataset, varied: str) -> None:
     kinds = steady["bifurcation_kind"].values.astype(str)
-    x = steady[f"bifurcation_{varied}"].values / _X_SIZES[varied]
+    x = steady[f"bifurcation_{varied}"].values / LOADS[varied].size
     y = steady["bifurcation_amplitude"].values
     for kind, style in _MARKERS.items():
         at = kinds == kind
@@ -224,49 +176,11 @@ def _entries(steady: xr.Dataset, transient: xr.Dataset | None, sweeps: Sequence[
     return entries
 
 
-def _load_text(steady: xr.Dataset) -> str:
-    """`P = 0.5 N, E₀ = 1 MV/m`, of what does not vary."""
-    parts = _other_forces(steady)
-    for name, (symbol, unit, size) in _SHOWN.items():
-        if name != steady.attrs["varied"] and name in steady and steady.sizes["point"]:
-            value = float(steady[name][0]) / size
-            if value != 0 or (name == "force" and not parts):
-                parts.append(f"{symbol} = {value:g} {unit}")
-    if "held_stretch" in steady.attrs:
-        parts.append(f"λ₂ held at {steady.attrs['held_stretch']:g}")
-    return f"{steady.attrs['model'].replace('_', ' ')}: {', '.join(parts)}"
-
-
-def _other_forces(data: xr.Dataset) -> list[str]:
-    """`P₁ = 0.1 N` of a membrane that has a force along each axis, instead of the one force of the others."""
-    numbers = {"force_1": "P₁", "force_2": "P₂"}
-    values = {name: _constant(data, name) for name in numbers}
-    return [f"{numbers[name]} = {value:g} N" for name, value in values.items() if value is not None]
-
-
-def _constant(data: xr.Dataset, name: str) -> float | None:
-    """The value of an input that is constant, from the coordinates or from what is said of its drive."""
-    if name in data.coords:
-        return float(data.coords[name])
-    found = re.fullmatch(r"Constant\(value=(.*)\)", str(data.attrs.get(f"{name}_drive", "")))
-    return float(found[1]) if found else None
-
-
-def _transient_load(transient: xr.Dataset, varied: str) -> str:
-    parts = _other_forces(transient) + [
-        f"{symbol} = {float(transient[name]) / size:g} {unit}"
-        for name, (symbol, unit, size) in _SHOWN.items()
-        if name != varied and name in transient.coords and (float(transient[name]) != 0 or name == "force")
-    ]
-    return f"{transient.attrs['model'].replace('_', ' ')}: {', '.join(parts)}"
-
-
-def _transient_text(transient: xr.Dataset) -> str:
-    start, stop = transient.attrs["window_start"], transient.attrs["window_stop"]
-    return (
-        f"Transient amplitude: {transient.attrs['definition']}, {start:g} to {stop:g} s from rest in the reference "
-        f"state, force a step at t = 0, dashpots flowing."
-    )
+def _loads(steady: xr.Dataset) -> dict[str, float | None]:
+    """What does not vary, from the first point where there is one."""
+    fixed = [name for name in LOADS if name in steady and name != steady.attrs["varied"]]
+    at_points = {name: float(steady[name][0]) for name in fixed} if steady.sizes["point"] else {}
+    return single_loads(steady) | at_points
 
 
 def _caption(steady: xr.Dataset, transient: xr.Dataset | None, sweeps: Sequence[xr.Dataset]) -> str:
@@ -275,7 +189,7 @@ def _caption(steady: xr.Dataset, transient: xr.Dataset | None, sweeps: Sequence[
         f"{steady.attrs['dashpots']}. {steady.attrs['explanation']}"
     ]
     if transient is not None:
-        texts.append(_transient_text(transient))
+        texts.append(amplitude_text(transient))
     if sweeps:
         texts.append(f"Stepped: {sweeps[0].attrs['definition']}.")
     return " ".join(texts)

@@ -192,9 +192,14 @@ def _dataset(
 
 def _state_variables(problem: Problem, state: np.ndarray) -> dict[str, tuple]:
     return {
-        entry.name: variable("time", values, entry.unit, entry.meaning, entry.symbol)
+        entry.name: variable("time", values, entry.unit, entry.meaning, entry.symbol, **_role(entry))
         for entry, values in zip(problem.model.STATE, state)
     }
+
+
+def _role(entry: object) -> dict[str, str]:
+    """What a module says a variable is in it; one that somebody wrote by hand may say nothing."""
+    return {"role": str(entry.role)} if hasattr(entry, "role") else {}
 
 
 def _input_variables(problem: Problem, inputs: list[np.ndarray]) -> dict[str, tuple]:

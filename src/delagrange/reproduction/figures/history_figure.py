@@ -11,7 +11,8 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from delagrange.figures.data import by_formulation, of_formulation
-from delagrange.figures.notation import NOTATION, TIME_LABEL
+from delagrange.figures.notation import NOTATION, TIME_LABEL, integrator_text
+from delagrange.figures.run_figure import mark_loss
 from delagrange.figures.style import (
     FORMULATION_COLOURS,
     FORMULATION_NAMES,
@@ -19,7 +20,7 @@ from delagrange.figures.style import (
     new_figure,
     panel_letter,
 )
-from delagrange.reproduction.figures.labels import DRIVE_TEXT, integrator_text, load_label
+from delagrange.reproduction.figures.labels import DRIVE_TEXT, load_label
 from delagrange.reproduction.runs.all_runs import Runs
 from delagrange.reproduction.runs.cases import MotionFigures
 from delagrange.reproduction.runs.runs import ACCURATE, formulations
@@ -60,16 +61,6 @@ def _draw_panel(axes: Axes, data: xr.Dataset, name: str, case: MotionFigures) ->
     axes.set_xlim(0.0, case.window)
 
 
-def mark_loss(axes: Axes, run: xr.Dataset, name: str, colour: str) -> None:
-    """A cross at the last value of a run that was lost, and how it was lost."""
-    if str(run["status"].values) == "completed":
-        return
-    last = run.isel(time=int(run[name].notnull().values.nonzero()[0][-1]))
-    axes.plot(last["time"], last[name], "x", color=colour, markersize=6)
-    text = f"{run['status'].values} at {float(run['status_time']):.4g} s"
-    axes.annotate(text, (float(last["time"]), float(last[name])), fontsize=8.0, color=colour)
-
-
 def _legend(figure: Figure, case: MotionFigures) -> None:
     named = [form for form in formulations(case.model) if form is not None]
     entries = [
@@ -83,5 +74,5 @@ def _caption(case: MotionFigures) -> str:
     return (
         f"Fig. {case.history_number}. {NOTATION[case.model].title}, {load_label(case.load, plain=True)}: "
         f"{DRIVE_TEXT}. Rows: half the printed resonance, the printed resonance, twice the printed resonance. "
-        f"{integrator_text(ACCURATE)}."
+        f"{integrator_text(ACCURATE.method, ACCURATE.rtol, ACCURATE.atol)}."
     )

@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure, SubFigure
 
 from delagrange.figures.data import by_formulation, joined, of_formulation
-from delagrange.figures.notation import NOTATION, Notation
+from delagrange.figures.notation import NOTATION, Notation, integrator_text
 from delagrange.figures.style import (
     FORMULATION_COLOURS,
     FORMULATION_NAMES,
@@ -19,7 +19,7 @@ from delagrange.figures.style import (
     new_figure,
     panel_letter,
 )
-from delagrange.reproduction.figures.labels import DRIVE_TEXT, integrator_text, load_label
+from delagrange.reproduction.figures.labels import DRIVE_TEXT, load_label
 from delagrange.reproduction.runs.all_runs import Runs
 from delagrange.reproduction.runs.cases import MotionFigures
 from delagrange.reproduction.runs.runs import ACCURATE, formulations
@@ -95,5 +95,5 @@ def _caption(data: xr.Dataset, case: MotionFigures) -> str:
         f"Fig. {case.phase_number}. {NOTATION[case.model].title}, {load_label(case.load, plain=True)}: "
         f"{DRIVE_TEXT}. (a)-(c) Phase paths over 0 to {case.window:g} s. (d)-(f) Poincaré maps, {count} points at "
         f"t = k/f, k = 0 ... {count - 1} (over {spans}). "
-        f"{integrator_text(ACCURATE)}."
+        f"{integrator_text(ACCURATE.method, ACCURATE.rtol, ACCURATE.atol)}."
     )

@@ -11,6 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure, SubFigure
 from matplotlib.lines import Line2D
 
+from delagrange.figures.amplitude_axis import lost_places, mark_lost, set_scale
 from delagrange.figures.data import by_formulation, of_formulation, side_by_side
 from delagrange.figures.notation import FREQUENCY_LABEL, NOTATION
 from delagrange.figures.style import (
@@ -28,8 +29,6 @@ from delagrange.reproduction.runs.published_numbers import PEAKS, Peak
 from delagrange.reproduction.runs.runs import ACCURATE, NUMERICS, PAPER_LIKE, curve, formulations
 from delagrange.run.run_dataset import PAPER as SOURCE
 
-_LARGEST_LINEAR = 2.5  # amplitude [1]
-_MARGIN = 0.95  # height of the axes at which what has no amplitude is marked
 _LEGEND_HEIGHT = 12.0  # [point]
 
 
@@ -67,7 +66,7 @@ def _draw_block(block: SubFigure, data: xr.Dataset, case: ResponseFigure) -> Non
         axes.set_title(fixed, fontsize=8.0, pad=3.0 + _LEGEND_HEIGHT, loc="right")
         axes.set_xlabel(FREQUENCY_LABEL)
         axes.margins(x=0.0)
-        _scale(axes, _shown_amplitudes(data, case, panel))
+        set_scale(axes, _shown_amplitudes(data, case, panel))
     all_axes[0].set_ylabel(notation.amplitude_label)
 
 
@@ -83,7 +82,7 @@ def _draw_panel(axes: Axes, data: xr.Dataset, case: ResponseFigure, panel: Panel
             accurate["frequency"], accurate["amplitude"], color=colour, label=value_label(load, panel.varied)
         )
         for shown in (accurate, rough):
-            _mark_lost(axes, shown, colour)
+            mark_lost(axes, lost_places(shown), colour)
         for peak in peaks_of(case, load):
             _mark_peak(axes, peak, colour)
     _panel_legend(axes, panel)
@@ -102,18 +101,6 @@ def _panel_legend(axes: Axes, panel: Panel) -> None:
 def peaks_of(case: ResponseFigure, load: CurveLoad) -> tuple[Peak, ...]:
     """What the paper prints of the curve of a load in a figure."""
     return tuple(peak for peak in PEAKS if peak.figure == case.number and peak.load == load)
-
-
-def lost_frequencies(one: xr.Dataset) -> np.ndarray:
-    """Frequencies [Hz] of a curve at which the solution was lost, so that there is no amplitude to draw."""
-    return one["frequency"].values[one["status"].values != "completed"]
-
-
-def _mark_lost(axes: Axes, one: xr.Dataset, colour: str) -> None:
-    lost = lost_frequencies(one)
-    if len(lost):
-        heights = np.full(len(lost), _MARGIN)
-        axes.plot(lost, heights, "x", color=colour, markersize=4, transform=axes.get_xaxis_transform())
 
 
 def _mark_peak(axes: Axes, peak: Peak, colour: str) -> None:
@@ -136,17 +123,7 @@ def _shown_amplitudes(data: xr.Dataset, case: ResponseFigure, panel: Panel) -> n
     """All amplitudes [1] that a panel has to hold, computed and printed."""
     computed = [curve(data, load)["amplitude"].values.ravel() for load in panel.loads]
     printed = [peak.amplitude for load in panel.loads for peak in peaks_of(case, load) if peak.amplitude]
-    amplitudes = np.concatenate([*computed, printed])
-    return amplitudes[np.isfinite(amplitudes)]
-
-
-def _scale(axes: Axes, shown: np.ndarray) -> None:
-    """Logarithmic where a peak would press all the rest to the ground. Room above for the marks of loss."""
-    if shown.max() > _LARGEST_LINEAR:
-        axes.set_yscale("log")
-        axes.set_ylim(shown.min() / 1.5, shown.max() * 3.0)
-    else:
-        axes.set_ylim(0.0, shown.max() * 1.1)
+    return np.concatenate([*computed, printed])
 
 
 def _legend(figure: Figure, data: xr.Dataset, case: ResponseFigure) -> None:
