@@ -18,7 +18,7 @@ import typer
 import delagrange
 from delagrange.cli import main
 from delagrange.cli.app import application
-from delagrange.cli.interruption import Interrupted, interruptible
+from delagrange.cli.results import Interrupted, interruptible
 from delagrange.common.units import with_unit
 from delagrange.model.parameters import CHANGEABLE_UNITS, SHENG_2015, Parameters
 
@@ -152,8 +152,11 @@ def test_every_material_parameter_has_an_option(command):
         (["simulate", "uniaxial"], "Missing option '--duration'"),
         (["simulate", "uniaxial", "--duration"], "--duration"),
         (["simulate", "uniaxial", "--duration", "0.1", "--forse", "1"], "--forse"),
-        (["simulate", "uniaxial", "--duration", "long"], "'long' is not a number in s"),
-        (["simulate", "uniaxial", "--duration", "0.1", "--force", "a"], "'a' is not a number in N"),
+        (["simulate", "uniaxial", "--duration", "long"], "--duration must be a number in s, got 'long'"),
+        (
+            ["simulate", "uniaxial", "--duration", "0.1", "--force", "a"],
+            "--force must be a number in N, got 'a'",
+        ),
         (["simulate", "uniaxial", "--duration", "0.1", "--samples", "1.5"], "--samples"),
         (["--verbose"], "--verbose"),
     ],

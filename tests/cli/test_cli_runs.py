@@ -423,7 +423,7 @@ SWEEP = ("sweep", "equal-biaxial", "--duration", "0.01", "--field-amplitude", "1
         ([*SWEEP, "--held-stretch", "2,3"], ["held_stretch", "holds no stretch"]),
         ([*SWEEP, "--density", "1,-1"], ["density", "kg/m^3", "positive"]),
         ([*SWEEP, "--extrema", "all"], ["extrema", "'all'", "dense"]),
-        ([*SWEEP, "--field-phase", "x"], ["field_phase", "rad", "'x'"]),
+        ([*SWEEP, "--field-phase", "x"], ["--field-phase", "rad", "'x'"]),
         ([*SWEEP, "--initial", "1.1"], ["initial must be NAME=VALUES", "stretch [1]", "'1.1'"]),
         ([*SWEEP, "--initial", "strech=1.1"], ["'strech=1.1'", "did you mean 'stretch'", "[1/s]"]),
         ([*SWEEP, "--initial", "stretch=wide"], ["initial stretch", "unit 1", "'wide'"]),

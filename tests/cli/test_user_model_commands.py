@@ -91,3 +91,12 @@ def test_the_built_in_models_take_them_too(capsys):
     assert main(["simulate", "uniaxial", "--duration", "1e-3", *given]) == 0
     assert main(["simulate", "nowhere/model.py", "--duration", "1e-3"]) == 2
     assert "nowhere/model.py: no such file or folder" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_a_model_is_loaded_once(monkeypatch, folder, command):
+    loads = []
+    load = dl.load
+    monkeypatch.setattr("delagrange.model.load.load", lambda path: loads.append(path) or load(path))
+    assert main([command, str(folder), *COMMANDS[command], "--quiet"]) == 0
+    assert len(loads) == 1

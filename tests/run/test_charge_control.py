@@ -466,9 +466,9 @@ def test_a_transient_response_by_command(capsys, tmp_path, damped):
 WRONG = {
     "field": (
         ["response", "--field-amplitude", "5e4", "--frequency", "300:303", "--steady"],
-        "--field-amplitude changes nothing: charged has the input nominal_charge_density",
+        "field_amplitude given as 50000, but the electrical input of charged is nominal_charge_density [C/m^2]",
     ),
-    "none": (["response", "--frequency", "300:303", "--steady"], "--charge-amplitude [C/m^2] must be given"),
+    "none": (["response", "--frequency", "300:303", "--steady"], "charge_amplitude [C/m^2] must be given"),
     "both": (
         ["classify", "--charge-amplitude", "5e-4", "--frequency", "300", "--field-amplitude", "1e6"],
         "driven by --field-amplitude and --charge-amplitude at once",

@@ -14,24 +14,21 @@ from typing import Annotated
 import typer
 
 import delagrange
-from delagrange.cli import (
-    classify,
-    derive,
-    equilibrium,
-    figures,
-    modes,
-    reproduce,
-    response,
-    simulate,
-    sweep,
-    verify,
-)
-from delagrange.cli.interruption import Interrupted
+from delagrange.cli import quantities
+from delagrange.cli.classify import classify
+from delagrange.cli.derive import derive
+from delagrange.cli.equilibrium import equilibrium
+from delagrange.cli.modes import modes
+from delagrange.cli.options import with_options
+from delagrange.cli.reproduce import figures, reproduce
+from delagrange.cli.response import response
+from delagrange.cli.results import Interrupted
+from delagrange.cli.simulate import simulate
+from delagrange.cli.sweep import sweep
+from delagrange.cli.verify import verify
 
 _COMMANDS = (
-    verify.verify, derive.derive, simulate.simulate, sweep.sweep, response.response,
-    equilibrium.equilibrium, modes.modes, classify.classify, figures.figures,
-    reproduce.reproduce,
+    verify, derive, simulate, sweep, response, equilibrium, modes, classify, figures, reproduce,
 )  # fmt: skip
 _BAD_INPUT, _INTERRUPTED = 2, 130
 _UsageError = typer.BadParameter.__base__  # what Typer raises for all that it cannot read
@@ -44,7 +41,7 @@ def application() -> typer.Typer:
     )
     app.callback()(_delagrange)
     for command in _COMMANDS:
-        app.command()(command)
+        app.command()(with_options(command, quantities.TABLE))
     return app
 
 
@@ -98,8 +95,9 @@ def _delagrange(
     All equations follow from its energies by machine; those that the paper
     prints are checked against them.
 
-    Quantities are in SI units without prefixes: N, V/m, Hz, s, Pa, m. Stretches
-    are pure numbers.
+    Bare numbers are in SI units without prefixes, as each option says: N, V/m, Hz,
+    s, Pa, m; others carry their unit: 500mN, 5MV/m, 0.3kHz. Stretches are pure
+    numbers.
 
     [bold]Begin with[/]
 

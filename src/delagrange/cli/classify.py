@@ -2,22 +2,16 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
-import typer
 from rich.text import Text
 
-from delagrange.cli import charge, console
-from delagrange.cli import options as o
-from delagrange.cli.drives import field_drive, force_drive
-from delagrange.cli.initial import single_start
-from delagrange.cli.interruption import interruptible
-from delagrange.cli.named import inputs_given, material_given
-from delagrange.cli.plots import check_plot, write_plot
-from delagrange.common.files import check_writable, write_dataset
-from delagrange.drives.drive import Drive
+from delagrange.cli import console
+from delagrange.cli.drives import electrical_drives, force_drive
+from delagrange.cli.membrane import arguments, limits_given, loaded, single_start
+from delagrange.cli.options import Given
+from delagrange.cli.results import interruptible, tell_written, write, write_plot
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -27,41 +21,7 @@ _COLOURS = {"undecided": "yellow", "lost": "yellow"}
 _MOST_LINES = 12  # of the printed table; the file has all
 
 
-def classify(
-    context: typer.Context,
-    model: o.Model,
-    formulation: o.Formulation = None,
-    lateral_dashpot: o.LateralDashpot = None,
-    held_stretch: o.HeldStretch = None,
-    force: o.Force = None,
-    force_frequency: o.ForceFrequency = None,
-    force_bias: o.ForceBias = None,
-    force_phase: o.ForcePhase = None,
-    field_amplitude: o.FieldAmplitude = None,
-    frequency: o.Frequency = None,
-    field_bias: o.FieldBias = None,
-    field_phase: o.FieldPhase = None,
-    charge_amplitude: charge.ChargeAmplitude = None,
-    charge_bias: charge.ChargeBias = None,
-    initial: o.Start = None,
-    half_length: o.HalfLength = None,
-    half_thickness: o.HalfThickness = None,
-    density: o.Density = None,
-    permittivity: o.Permittivity = None,
-    shear_modulus_alpha: o.ShearModulusAlpha = None,
-    shear_modulus_beta: o.ShearModulusBeta = None,
-    viscosity: o.Viscosity = None,
-    relaxation_time: o.RelaxationTime = None,
-    named_parameters: o.NamedParameters = None,
-    named_inputs: o.NamedInputs = None,
-    dashpots: o.MotionDashpots = "frozen",
-    duration: o.MotionDuration = None,
-    transient: o.Transient = None,
-    tolerance: o.MotionTolerance = 1e-11,
-    plot: o.PlotFile = None,
-    out: o.MotionFile = None,
-    quiet: o.Quiet = False,
-) -> None:
+def classify(given: Given) -> None:
     """Kind of motion: at rest, periodic, quasi-periodic, chaotic, or not to be said.
 
     Three witnesses are heard: the Lyapunov spectrum from the variational
@@ -78,54 +38,26 @@ def classify(
       delagrange classify uniaxial --force 0.25 --force-bias 0.25 \\
           --force-frequency 490 --relaxation-time 0.01 --dashpots evolving
     """
-    if out is not None:
-        _check_netcdf(out)
-    check_plot(plot)
-    from delagrange.model.load import load_model
-
-    module = load_model(model, formulation, lateral_dashpot)
-    start = single_start(initial, {entry.name: entry.unit for entry in module.STATE})
-    force_load, inputs = force_drive(context.params), inputs_given(named_inputs, module)
-    field_load: Drive | float = 0.0
-    if charge_amplitude is None and charge_bias is None:
-        field_load = field_drive(context.params)
-    else:
-        inputs = charge.with_charge(inputs, context.params)
+    module = loaded(given)
+    taken = arguments(given, module, single_start(given, module))
+    taken |= {"force": force_drive(given), **electrical_drives(given, taken["inputs"])}
     with interruptible("the motion was not followed to the end, nothing was written"):
         from delagrange.analysis.motion.classify import classify as judge
 
         motion = judge(
-            model,
-            force=force_load,
-            field=field_load,
-            inputs=inputs,
-            formulation=formulation,
-            lateral_dashpot=lateral_dashpot,
-            held_stretch=held_stretch,
-            initial_state=start,
-            dashpots=dashpots,
-            duration=duration,
-            transient=transient,
-            tolerance=tolerance,
-            progress=not quiet,
-            **material_given(context.params, named_parameters, module),
+            module,
+            **taken,
+            **given.some("dashpots", "duration", "transient", "tolerance"),
+            limits=limits_given(given),
+            progress=not given.quiet,
         )
-        if out is not None:
-            write_dataset(motion, out)
+        write(motion, given)
     _report(motion)
-    if out is not None:
-        print(f"written: {out}")
-    if plot is not None:
+    tell_written(given)
+    if given.plot is not None:
         from delagrange.figures.motion_figure import draw_motion
 
-        write_plot(lambda: draw_motion(motion), plot)
-
-
-def _check_netcdf(out: Path) -> None:
-    """Refuse a table: the evidence has too many dimensions for one."""
-    if out.suffix != ".nc":
-        raise ValueError(f"output file {out} must end in .nc (NetCDF), got {out.suffix or 'no suffix'!r}")
-    check_writable(out)
+        write_plot(given.plot, draw_motion, motion)
 
 
 def _report(motion: xr.Dataset) -> None:

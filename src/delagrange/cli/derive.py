@@ -1,49 +1,24 @@
-"""`delagrange derive`: from the energies to the emitted modules."""
+"""`delagrange derive`: from the energies to the emitted modules, the paper's or those of a user's model file."""
 
 from __future__ import annotations
 
 from importlib import resources
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
 import typer
 
 from delagrange.cli import console
-from delagrange.cli import options as o
-from delagrange.cli.derive_file import derive_file
-from delagrange.cli.interruption import interruptible
-from delagrange.cli.verdicts import show
-from delagrange.cli.verify import Details, as_recorded
+from delagrange.cli.options import Given
+from delagrange.cli.results import interruptible
+from delagrange.cli.verdicts import as_recorded, show
 from delagrange.common.files import check_folder, prepare_folder
 
 if TYPE_CHECKING:
     from delagrange.derive.pipeline import Derivation
 
-ModuleFolder = Annotated[
-    Path | None,
-    typer.Option("--out", metavar="DIR", help="Folder of the modules.", show_default="delagrange.generated"),
-]
-Check = Annotated[
-    bool,
-    typer.Option("--check", help="Write nothing: compare the folder, byte for byte, with what is emitted."),
-]
 
-
-ModelFile = Annotated[
-    Path | None,
-    typer.Argument(
-        metavar="[FILE]", help="A membrane of your own, described in TOML.", show_default="the paper's models"
-    ),
-]
-
-
-def derive(
-    model: ModelFile = None,
-    out: ModuleFolder = None,
-    check: Check = False,
-    details: Details = False,
-    quiet: o.Quiet = False,
-) -> None:
+def derive(given: Given) -> None:
     """Derive, check against the paper and write one NumPy module a model.
 
     From the motion, the kinetic energy T and the potential Π of Eqs. (1)-(6) to
@@ -64,21 +39,21 @@ def derive(
       delagrange derive --check
       delagrange derive my_membrane.toml --out my_models
     """
-    if model is not None:
-        derive_file(model, out, check, quiet)
+    if given.model is not None:
+        _derive_file(given.model, given)
         return
-    folder = out if out is not None else Path(str(resources.files("delagrange.generated")))
-    check_folder(folder) if check else prepare_folder(folder)
+    folder = given.out if given.out is not None else Path(str(resources.files("delagrange.generated")))
+    check_folder(folder) if given.check else prepare_folder(folder)
     with (
         interruptible("nothing was written"),
-        console.messages(quiet).status("deriving, checking and emitting"),
+        console.messages(given.quiet).status("deriving, checking and emitting"),
     ):
         from delagrange.derive import pipeline
 
         walked = pipeline.walk()
-    show(walked.verdicts, details)
+    show(walked.verdicts, given.details)
     departed = not as_recorded(walked.verdicts)
-    if check:
+    if given.check:
         failed = _stale(walked, folder) or departed
     else:
         failed = departed
@@ -110,3 +85,51 @@ def _write(walked: Derivation, folder: Path, departed: bool) -> None:
         return
     pipeline.write(walked.modules, folder)
     print(f"written: {len(walked.modules)} modules in {folder}")
+
+
+def _derive_file(model: Path, given: Given) -> None:
+    """Derive the membrane of a model file and write its modules, or compare them with those in the folder.
+
+    Raises:
+        ValueError: no folder is given, the file is refused, or the folder cannot be written.
+        typer.Exit: with --check, a module is stale.
+    """
+    out = given.out
+    if out is None:
+        raise ValueError(f"the modules of {model} need a folder of their own: give it with --out DIR")
+    if given.check:
+        check_folder(out)
+    with interruptible("nothing was written"), console.messages(given.quiet).status(f"deriving {model}"):
+        modules = _derived(model)
+    if given.check:
+        _compare(modules, out, model)
+        return
+    from delagrange.derive.emit.write_together import write_together
+
+    with interruptible("nothing was written"):
+        write_together(modules, out)
+    print(f"written: {', '.join(name for name, _ in modules)} in {out}")
+
+
+def _derived(path: Path) -> tuple[tuple[str, str], ...]:
+    """File name and text of each module of the membrane."""
+    from delagrange.derive.model_file.describe import describe
+    from delagrange.derive.model_file.file import read_model_file
+    from delagrange.derive.pipeline import derive_description
+
+    description = describe(read_model_file(path))
+    try:
+        return derive_description(description)
+    except ValueError as error:
+        raise ValueError(f"{path}: {' '.join(str(error).split())}") from error
+
+
+def _compare(modules: tuple[tuple[str, str], ...], folder: Path, model: Path) -> None:
+    from delagrange.derive import pipeline
+
+    old = pipeline.stale(modules, folder)
+    for name in old:
+        console.complain(f"stale: {folder / name} is not what {model} gives; derive it again")
+    print(f"{len(modules) - len(old)} of {len(modules)} modules in {folder} are as emitted")
+    if old:
+        raise typer.Exit(1)

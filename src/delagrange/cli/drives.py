@@ -1,123 +1,100 @@
-"""Force and field over time, from the options that say how they are driven."""
+"""Force, field and charge over time, from the options that say how they are driven."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
-from typing import Any
 
-from delagrange.cli import quantities
-from delagrange.common import checks
+from delagrange.cli import values
+from delagrange.cli.options import Given, flag_of
 from delagrange.drives.drive import Constant, Drive, Ramp, Sine, Step, Tabulated
+from delagrange.drives.inputs import CHARGE_DENSITY, ELECTRIC_FIELD, Inputs
 
 
 @dataclass(frozen=True)
-class DriveOptions:
-    """What a person said about one input, and under which names."""
+class Driven:
+    """An input, and the names of the options for its value and its frequency; others begin with its stem."""
 
-    name: str  # "force" or "field"
+    stem: str
     unit: str
-    value_option: str
-    frequency_option: str
-    value: float | None = None  # amplitude of a sine, else a constant [unit]
-    frequency: float | None = None  # [Hz]
-    bias: float | None = None  # [unit]
-    phase: float | None = None  # [rad]
-    step_time: float | None = None  # [s]
-    ramp: str | None = None
-    table: Path | None = None
+    value: str  # amplitude of a sine, else a constant
+    frequency: str
 
-    def drive(self) -> Drive:
-        """The drive; zero at all times where nothing was said.
 
-        Raises:
-            ValueError: options that contradict each other, or a bad value in one.
-        """
-        self._refuse_two_drives()
-        self._refuse_idle()
-        self._check_numbers()
-        if self.table is not None:
-            return Tabulated(*quantities.table(self.name, self.table, self.unit))
-        if self.ramp is not None:
-            return Ramp(*quantities.ramp(f"{self.name}-ramp", self.ramp, self.unit))
-        if self.frequency is not None:
-            return Sine(self.value, self.frequency, self.bias or 0.0, self.phase or 0.0)
-        if self.step_time is not None:
-            return Step(self.value, self.step_time)
-        return Constant(self.value or 0.0)
+_FORCE = Driven("force", "N", "force", "force_frequency")
+_FIELD, _CHARGE = (
+    Driven(each.stem, each.unit, each.amplitude, "frequency") for each in (ELECTRIC_FIELD, CHARGE_DENSITY)
+)
+_OF_A_FIELD = ("field_amplitude", "field_bias", "field_phase")  # which a charge takes the place of
 
-    def _refuse_two_drives(self) -> None:
-        given = {
-            self.value_option: self.value,
-            f"--{self.name}-ramp": self.ramp,
-            f"--{self.name}-csv": self.table,
-        }
-        said = [option for option, value in given.items() if value is not None]
-        if len(said) > 1:
-            raise ValueError(f"{self.name} [{self.unit}] is driven by {' and '.join(said)} at once; give one")
-        if self.frequency is not None and self.step_time is not None:
+
+def force_drive(given: Given) -> Drive:
+    """The force; zero at all times where nothing was said.
+
+    Raises:
+        ValueError: options that contradict each other, or a bad value in one.
+    """
+    return _drive(given, _FORCE)
+
+
+def electrical_drives(given: Given, inputs: Inputs | None) -> dict[str, Drive | Inputs | None]:
+    """The field beside the inputs by name, or among these the charge where that is given instead.
+
+    Raises:
+        ValueError: as `force_drive`; the electrodes are driven by a field and a charge, or the charge is given twice.
+    """
+    if not any(given.get(f"{_CHARGE.stem}_{part}") is not None for part in ("amplitude", "bias")):
+        return {"field": _drive(given, _FIELD), "inputs": inputs}
+    for name in _OF_A_FIELD:
+        if given.get(name) is not None:
             raise ValueError(
-                f"{self.name} [{self.unit}] is driven by {self.frequency_option} and --{self.name}-step-time "
-                "at once; give one"
+                f"the electrodes are driven by {flag_of(name)} and {flag_of(_CHARGE.value)} at once; give one"
             )
-
-    def _check_numbers(self) -> None:
-        """Name the option of a bad number: a drive by itself knows neither it nor the unit."""
-        finite = (
-            (self.value_option, self.value, self.unit),
-            (f"--{self.name}-bias", self.bias, self.unit),
-            (f"--{self.name}-phase", self.phase, "rad"),
-            (f"--{self.name}-step-time", self.step_time, "s"),
+    if CHARGE_DENSITY.name in (inputs or {}):
+        raise ValueError(
+            f"{CHARGE_DENSITY.name} is given by {flag_of(_CHARGE.value)} and by --input; give one"
         )
-        for option, given, unit in finite:
-            if given is not None:
-                checks.finite(option, given, unit)
-        if self.frequency is not None:
-            checks.positive(self.frequency_option, self.frequency, "Hz")
-
-    def _refuse_idle(self) -> None:
-        """Refuse what would change nothing: it was meant to."""
-        amplitude, sine = (self.value, self.value_option), (self.frequency, self.frequency_option)
-        dependent = (
-            (self.frequency_option, self.frequency, "Hz", amplitude),
-            (f"--{self.name}-step-time", self.step_time, "s", amplitude),
-            (f"--{self.name}-bias", self.bias, self.unit, sine),
-            (f"--{self.name}-phase", self.phase, "rad", sine),
-        )
-        for option, given, unit, (needed, needed_option) in dependent:
-            if given is not None and needed is None:
-                raise ValueError(
-                    f"{option} {given:g} {unit} changes nothing without {needed_option}; give that, too"
-                )
+    return {"inputs": {**(inputs or {}), CHARGE_DENSITY.name: _drive(given, _CHARGE)}}
 
 
-def force_drive(given: Mapping[str, Any]) -> Drive:
-    """The force, from the values of a command's options by name; options that it has not count as not given."""
-    return _drive_of("force", "N", ("--force", "force"), ("--force-frequency", "force_frequency"), given)
-
-
-def field_drive(given: Mapping[str, Any]) -> Drive:
-    """The field, likewise."""
-    return _drive_of(
-        "field", "V/m", ("--field-amplitude", "field_amplitude"), ("--frequency", "frequency"), given
+def _drive(given: Given, driven: Driven) -> Drive:
+    stem = driven.stem
+    value, frequency = given.get(driven.value), given.get(driven.frequency)
+    bias, phase, begin, ramp, table = (
+        given.get(f"{stem}_{part}") for part in ("bias", "phase", "step_time", "ramp", "csv")
     )
+    _refuse_two(given, driven)
+    _refuse_idle(given, driven)
+    if table is not None:
+        return Tabulated(*values.table(stem, table, driven.unit))
+    if ramp is not None:
+        return Ramp(*ramp)
+    if frequency is not None:
+        return Sine(value, frequency, bias or 0.0, phase or 0.0)
+    if begin is not None:
+        return Step(value, begin)
+    return Constant(value or 0.0)
 
 
-def _drive_of(
-    name: str, unit: str, value: tuple[str, str], frequency: tuple[str, str], given: Mapping[str, Any]
-) -> Drive:
-    """`value` and `frequency`: option and name of its value."""
-    return DriveOptions(
-        name,
-        unit,
-        value[0],
-        frequency[0],
-        value=given[value[1]],
-        frequency=given[frequency[1]],
-        bias=given.get(f"{name}_bias"),
-        phase=given.get(f"{name}_phase"),
-        step_time=given.get(f"{name}_step_time"),
-        ramp=given.get(f"{name}_ramp"),
-        table=given.get(f"{name}_table"),
-    ).drive()
+def _refuse_two(given: Given, driven: Driven) -> None:
+    """Refuse two ways to drive one input."""
+    stem = driven.stem
+    for names in ((driven.value, f"{stem}_ramp", f"{stem}_csv"), (driven.frequency, f"{stem}_step_time")):
+        said = [flag_of(name) for name in names if given.get(name) is not None]
+        if len(said) > 1:
+            raise ValueError(f"{stem} [{driven.unit}] is driven by {' and '.join(said)} at once; give one")
+
+
+def _refuse_idle(given: Given, driven: Driven) -> None:
+    """Refuse what would change nothing: it was meant to."""
+    dependent = (
+        (driven.frequency, "Hz", driven.value),
+        (f"{driven.stem}_step_time", "s", driven.value),
+        (f"{driven.stem}_bias", driven.unit, driven.frequency),
+        (f"{driven.stem}_phase", "rad", driven.frequency),
+    )
+    for name, unit, needed in dependent:
+        number = given.get(name)
+        if number is not None and given.get(needed) is None:
+            raise ValueError(
+                f"{flag_of(name)} {number:g} {unit} changes nothing without {flag_of(needed)}; give that, too"
+            )

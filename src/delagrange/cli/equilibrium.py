@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from types import ModuleType
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import typer
 
-from delagrange.cli import console, quantities
-from delagrange.cli import options as o
-from delagrange.cli.initial import initial_state
-from delagrange.cli.interruption import interruptible
-from delagrange.cli.named import inputs_given, material_given, refuse_many
-from delagrange.cli.plots import check_plot, write_plot
-from delagrange.common.files import check_writable, write_dataset
+from delagrange.cli import console
+from delagrange.cli.membrane import arguments, loaded, refuse_many, state_given
+from delagrange.cli.options import Given
+from delagrange.cli.results import interruptible, tell_written, write_plot
+from delagrange.common.files import write_dataset
 from delagrange.drives.inputs import CHARGE_DENSITY, ELECTRIC_FIELD, ELECTRICAL, ElectricalInput
 
 if TYPE_CHECKING:
@@ -24,6 +22,7 @@ _MOST_ROWS = 60  # of the printed table; the file has all
 _DEFAULT_FIELDS = 12
 _PAST = 1.05  # of the critical field: as far as the default goes
 _PART = 0.05  # of a charge up to which nothing happens
+_DASHPOTS = "relaxed"  # where nothing is said
 _BESIDE_MAP = {
     "field": "finds the field",
     "voltage": "finds the voltage",
@@ -33,35 +32,7 @@ _BESIDE_MAP = {
 _CURVES = ("point", "limit_point")  # dimensions that a table over field and branch has no room for
 
 
-def equilibrium(
-    context: typer.Context,
-    model: o.Model,
-    formulation: o.Formulation = None,
-    lateral_dashpot: o.LateralDashpot = None,
-    held_stretch: o.HeldStretch = None,
-    force: o.StaticForce = 0.0,
-    field: o.StaticFields = None,
-    voltage: o.Voltages = None,
-    map_force: o.MapForces = None,
-    dashpots: o.StaticDashpots = "relaxed",
-    breakdown_field: o.BreakdownField = None,
-    breakdown_exponent: o.BreakdownExponent = 0.0,
-    smallest_tension: o.SmallestTension = 0.0,
-    initial: o.Initial = None,
-    half_length: o.HalfLength = None,
-    half_thickness: o.HalfThickness = None,
-    density: o.Density = None,
-    permittivity: o.Permittivity = None,
-    shear_modulus_alpha: o.ShearModulusAlpha = None,
-    shear_modulus_beta: o.ShearModulusBeta = None,
-    viscosity: o.Viscosity = None,
-    relaxation_time: o.RelaxationTime = None,
-    named_parameters: o.NamedParameters = None,
-    named_inputs: o.NamedInputs = None,
-    plot: o.PlotFile = None,
-    out: o.OutFile = None,
-    quiet: o.Quiet = False,
-) -> None:
+def equilibrium(given: Given) -> None:
     """Equilibria: all branches over the field, their stability, where they end.
 
     Under a constant force and field, with dashpots relaxed or frozen; under charge
@@ -82,83 +53,56 @@ def equilibrium(
           --breakdown-field 5e7 --out branches.nc
       delagrange equilibrium uniaxial --map-force 0:2:0.1 --plot map.png
     """
-    if out is not None:
-        check_writable(out)
-    check_plot(plot)
-    if map_force:
-        _refuse_beside_map(context)
-    from delagrange.model.load import load_model
-
-    module = load_model(model, formulation, lateral_dashpot)
-    common = {
-        "formulation": formulation,
-        "lateral_dashpot": lateral_dashpot,
-        "held_stretch": held_stretch,
-        "initial_state": initial_state(initial, {entry.name: entry.unit for entry in module.STATE}),
-        "breakdown_field": breakdown_field,
-        "breakdown_exponent": breakdown_exponent,
-        "smallest_tension": smallest_tension,
-        "inputs": inputs_given(named_inputs, module),
-        **material_given(context.params, named_parameters, module),
-    }
-    refuse_many(common, module, but=None if map_force else CHARGE_DENSITY.name)
+    mapped = given.map_force is not None
+    if mapped:
+        _refuse_beside_map(given)
+    module = loaded(given)
+    taken = arguments(given, module, state_given(given, module))
+    taken |= given.some("breakdown_field", "breakdown_exponent", "smallest_tension")
+    refuse_many(taken, module, but=None if mapped else CHARGE_DENSITY.name)
     with interruptible("the equilibria were not finished, nothing was written"):
-        if map_force:
-            found = _critical_map(model, map_force, common, quiet)
-        else:
-            found = _equilibria(model, force, field, voltage, dashpots, common)
-        if out is not None:
-            write_dataset(_for_file(found, out.suffix), out)
-    (_report_map if map_force else _report)(found)
-    if out is not None:
-        print(f"written: {out}")
-    if plot is not None:
+        found = _critical_map(module, given, taken) if mapped else _equilibria(module, given, taken)
+        if given.out is not None:
+            write_dataset(_for_file(found, given.out.suffix), given.out)
+    (_report_map if mapped else _report)(found)
+    tell_written(given)
+    if given.plot is not None:
         from delagrange.figures import equilibrium_figure as figure
 
-        draw = figure.draw_critical_map if map_force else figure.draw_equilibria
-        write_plot(lambda: draw(found), plot)
+        write_plot(given.plot, figure.draw_critical_map if mapped else figure.draw_equilibria, found)
 
 
-def _refuse_beside_map(context: typer.Context) -> None:
+def _refuse_beside_map(given: Given) -> None:
     """Refuse what a map of the critical field would not use: it was meant to change something."""
     for name, reason in _BESIDE_MAP.items():
-        if context.get_parameter_source(name).name != "DEFAULT":
+        if given.get(name) is not None:
             raise ValueError(f"--{name} changes nothing with --map-force, which {reason}; leave it out")
 
 
-def _critical_map(model: str, texts: list[str], common: dict[str, object], quiet: bool) -> xr.Dataset:
+def _critical_map(module: ModuleType, given: Given, taken: dict[str, Any]) -> xr.Dataset:
     from delagrange.analysis.rest.critical_map import critical_map
     from delagrange.common.progress import working
 
-    forces = np.atleast_1d(quantities.axis("map-force", texts, "N"))
-    with working(not quiet, f"critical fields at {len(forces)} forces"):
-        return critical_map(model, force=forces, **common)
+    forces = np.atleast_1d(given.map_force)
+    with working(not given.quiet, f"critical fields at {len(forces)} forces"):
+        return critical_map(module, force=forces, **taken)
 
 
-def _equilibria(
-    model: str,
-    force: float,
-    field: list[str] | None,
-    voltage: list[str] | None,
-    dashpots: str,
-    common: dict[str, object],
-) -> xr.Dataset:
+def _equilibria(module: ModuleType, given: Given, taken: dict[str, Any]) -> xr.Dataset:
     from delagrange.analysis.rest.equilibria import equilibria
 
-    given = {
-        "field": quantities.axis("field", field, "V/m"),
-        "voltage": quantities.axis("voltage", voltage, "V"),
-    }
-    if all(value is None for value in (*given.values(), (common["inputs"] or {}).get(CHARGE_DENSITY.name))):
-        given |= _default_values(model, force, dashpots, common)
-    return equilibria(model, force=force, dashpots=dashpots, **(common | given))
+    load = {"dashpots": _DASHPOTS} | given.some("force", "dashpots")
+    varied = given.some("field", "voltage")
+    if not varied and CHARGE_DENSITY.name not in (taken["inputs"] or {}):
+        varied = _default_values(module, load | taken)
+    return equilibria(module, **(load | taken | varied))
 
 
-def _default_values(model: str, force: float, dashpots: str, common: dict[str, object]) -> dict[str, object]:
+def _default_values(module: ModuleType, taken: dict[str, Any]) -> dict[str, Any]:
     """From none to a little beyond where the stable branch ends: of the field, or of the charge among the inputs."""
     from delagrange.analysis.rest.pull_in import critical_names, pull_in
 
-    found = pull_in(model, force=force, dashpots=dashpots, **common)
+    found = pull_in(module, **taken)
     electrical = ELECTRICAL[found.attrs["varied_input"]]
     ended = np.isfinite(float(found[electrical.argument]))
     highest = float(found[critical_names(electrical)["highest"]]) * (
@@ -167,7 +111,7 @@ def _default_values(model: str, force: float, dashpots: str, common: dict[str, o
     values = np.linspace(0.0, _PAST * highest, _DEFAULT_FIELDS) if highest > 0 else np.zeros(1)
     if electrical is ELECTRIC_FIELD:
         return {"field": values}
-    return {"inputs": {**(common["inputs"] or {}), electrical.name: values}}
+    return {"inputs": {**(taken["inputs"] or {}), electrical.name: values}}
 
 
 def _for_file(found: xr.Dataset, suffix: str) -> xr.Dataset:

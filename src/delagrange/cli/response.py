@@ -2,65 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING
+from types import ModuleType
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import typer
 
-from delagrange.cli import charge
-from delagrange.cli import options as o
-from delagrange.cli.initial import initial_state
-from delagrange.cli.interruption import Interrupted, interruptible
-from delagrange.cli.named import inputs_given, material_given, refuse_many
-from delagrange.cli.plots import check_plot, write_plot
-from delagrange.cli.response_load import Span, electrical_load, load_given, varied_name
+from delagrange.cli.membrane import arguments, limits_given, loaded, refuse_many, state_given
+from delagrange.cli.options import Given, flag_of
 from delagrange.cli.response_tables import report_steady, report_transient
+from delagrange.cli.results import Interrupted, interruptible, tell_written, write_plot
+from delagrange.cli.values import Span
 from delagrange.common import checks
-from delagrange.common.files import check_writable, write_dataset
-from delagrange.drives.inputs import electrical_input
+from delagrange.common.files import write_dataset
 
 if TYPE_CHECKING:
     import xarray as xr
-    from matplotlib.figure import Figure
 
+Load = dict[str, float | Span]
+
+_LOAD = ("force", "field_amplitude", "field_bias", "frequency")
+_CHARGE = ("charge_amplitude", "charge_bias")  # of the load, where they are given
 _SWEEP_STEPS = 60
 
 
-def response(
-    context: typer.Context,
-    model: o.Model,
-    frequency: o.SpannedFrequency,
-    field_amplitude: o.SpannedFieldAmplitude = None,
-    charge_amplitude: charge.SpannedChargeAmplitude = None,
-    formulation: o.Formulation = None,
-    lateral_dashpot: o.LateralDashpot = None,
-    held_stretch: o.HeldStretch = None,
-    force: o.SpannedForce = None,
-    field_bias: o.SpannedFieldBias = None,
-    charge_bias: charge.SpannedChargeBias = None,
-    initial: o.Initial = None,
-    half_length: o.HalfLength = None,
-    half_thickness: o.HalfThickness = None,
-    density: o.Density = None,
-    permittivity: o.Permittivity = None,
-    shear_modulus_alpha: o.ShearModulusAlpha = None,
-    shear_modulus_beta: o.ShearModulusBeta = None,
-    viscosity: o.Viscosity = None,
-    relaxation_time: o.RelaxationTime = None,
-    named_parameters: o.NamedParameters = None,
-    named_inputs: o.NamedInputs = None,
-    steady: o.Steady = False,
-    dashpots: o.SteadyDashpots = None,
-    largest_amplitude: o.LargestAmplitude = None,
-    period_multiple: o.PeriodMultiple = 1,
-    most_points: o.MostPoints = 400,
-    sweeps: o.Sweeps = False,
-    duration: o.TransientDuration = 0.1,
-    plot: o.PlotFile = None,
-    out: o.OutFile = None,
-    quiet: o.Quiet = False,
-) -> None:
+def response(given: Given) -> None:
     """Response to a sine field: transient amplitude, or steady branches.
 
     Without --steady, half of peak to peak over the first --duration from rest,
@@ -79,126 +44,91 @@ def response(
           --frequency 350:480 --relaxation-time 0.01 --steady --dashpots relaxed \\
           --sweeps --plot damped.png
     """
-    if out is not None:
-        check_writable(out)
-    check_plot(plot)
-    load = load_given(context.params)
-    varied = varied_name(load)
-    _refuse_idle(
-        steady, {"--dashpots": dashpots, "--largest-amplitude": largest_amplitude, "--sweeps": sweeps or None}
-    )
-    if sweeps:
-        _check_sweeps(varied, dashpots)
-    from delagrange.model.load import load_model
-
-    module = load_model(model, formulation, lateral_dashpot)
-    load = electrical_load(load, electrical_input(module), module.MODEL)
-    common = {
-        "formulation": formulation,
-        "lateral_dashpot": lateral_dashpot,
-        "held_stretch": held_stretch,
-        "initial_state": initial_state(initial, {entry.name: entry.unit for entry in module.STATE}),
-        "inputs": inputs_given(named_inputs, module),
-        **material_given(context.params, named_parameters, module),
-    }
-    refuse_many(common, module)
+    load = given.some(*_LOAD, *_CHARGE)
+    varied = _varied(load)
+    _refuse_idle(given, varied)
+    module = loaded(given)
+    taken = arguments(given, module, state_given(given, module)) | {"limits": limits_given(given)}
+    refuse_many(taken, module)
     with interruptible("the response was not finished, nothing was written"):
-        if steady:
-            limits = {"largest_amplitude": largest_amplitude, "most_points": most_points}
-            more = limits | {"period_multiple": period_multiple, "dashpots": dashpots or "frozen"}
-            result = _steady(model, load, common | more, quiet)
-        else:
-            result = _transient(model, load, varied, common, duration, quiet)
-        if out is not None:
-            write_dataset(_as_table(result) if out.suffix == ".csv" else result, out)
-        draw = None
-        if plot is not None:
-            draw = _drawing(result, model, load, varied, common, duration, sweeps, quiet)
-    (report_steady if steady else report_transient)(result, varied)
-    if out is not None:
-        print(f"written: {out}")
-    if draw is not None:
-        write_plot(draw, plot)
-    if steady and result.attrs["search"] == "interrupted":
+        result = (
+            _steady(module, given, load, taken) if given.steady else _transient(module, given, load, taken)
+        )
+        if given.out is not None:
+            write_dataset(_as_table(result) if given.out.suffix == ".csv" else result, given.out)
+        beside = _beside(module, given, load, taken) if given.plot is not None and given.steady else ()
+    (report_steady if given.steady else report_transient)(result, varied)
+    tell_written(given)
+    if given.plot is not None:
+        from delagrange.figures.steady_figure import draw_steady
+        from delagrange.figures.sweep_figure import draw_sweep
+
+        draw, about = (draw_steady, beside) if given.steady else (draw_sweep, (varied,))
+        write_plot(given.plot, draw, result, *about)
+    if given.steady and result.attrs["search"] == "interrupted":
         raise Interrupted("the search was not finished; the branches found until then are above")
 
 
-def _refuse_idle(steady: bool, given: Mapping[str, object]) -> None:
-    """Refuse what would change nothing: it was meant to."""
-    for option, value in given.items():
-        if value is not None and not steady:
-            raise ValueError(f"{option} changes nothing without --steady; give that, too")
+def _varied(load: Load) -> str:
+    """The one quantity of the load that is a range.
 
-
-def _check_sweeps(varied: str, dashpots: str | None) -> None:
-    if varied != "frequency":
-        raise ValueError(f"--sweeps steps the frequency, and {varied} is the range; leave it out")
-    if dashpots != "relaxed":
+    Raises:
+        ValueError: none is, or several are.
+    """
+    spans = [name for name, value in load.items() if isinstance(value, Span)]
+    if len(spans) != 1:
+        names = [*_LOAD, *(name for name in _CHARGE if name in load)]
         raise ValueError(
-            f"--sweeps needs --dashpots relaxed, got {dashpots or 'frozen'}: without damping no motion settles"
+            f"exactly one of {', '.join(map(flag_of, names))} must be a range START:STOP, got {len(spans)}"
+        )
+    return spans[0]
+
+
+def _refuse_idle(given: Given, varied: str) -> None:
+    """Refuse what would change nothing: it was meant to."""
+    for name in ("dashpots", "largest_amplitude", "sweeps"):
+        if given.get(name) not in (None, False) and not given.steady:
+            raise ValueError(f"{flag_of(name)} changes nothing without --steady; give that, too")
+    if given.sweeps and varied != "frequency":
+        raise ValueError(f"--sweeps steps the frequency, and {varied} is the range; leave it out")
+    if given.sweeps and given.dashpots != "relaxed":
+        raise ValueError(
+            f"--sweeps needs --dashpots relaxed, got {given.dashpots or 'frozen'}: without damping no motion settles"
         )
 
 
-def _steady(
-    model: str, load: Mapping[str, float | Span], more: Mapping[str, object], quiet: bool
-) -> xr.Dataset:
+def _steady(module: ModuleType, given: Given, load: Load, taken: dict[str, Any]) -> xr.Dataset:
     from delagrange.analysis.steady.steady_response import steady_response
 
-    pairs = {
-        name: (value.start, value.stop) if isinstance(value, Span) else value for name, value in load.items()
-    }
-    return steady_response(model, **pairs, **more, progress=not quiet)
+    pairs = {name: value.ends if isinstance(value, Span) else value for name, value in load.items()}
+    settings = given.some("dashpots", "largest_amplitude", "period_multiple", "most_points")
+    return steady_response(module, **pairs, **taken, **settings, progress=not given.quiet)
 
 
-def _transient(
-    model: str,
-    load: Mapping[str, float | Span],
-    varied: str,
-    common: Mapping[str, object],
-    duration: float,
-    quiet: bool,
-) -> xr.Dataset:
+def _transient(module: ModuleType, given: Given, load: Load, taken: dict[str, Any]) -> xr.Dataset:
     """Over the varied quantity alone."""
     from delagrange.run.frequency_response import frequency_response
 
-    checks.positive("duration", duration, "s")
+    checks.positive("duration", given.duration, "s")
     grid = {name: value.values() if isinstance(value, Span) else value for name, value in load.items()}
-    found = frequency_response(model, duration=duration, progress=not quiet, **grid, **common)
-    return found if varied == "frequency" else found.isel(frequency=0)
+    found = frequency_response(module, duration=given.duration, progress=not given.quiet, **grid, **taken)
+    return found if isinstance(load["frequency"], Span) else found.isel(frequency=0)
 
 
-def _stepped(model: str, load: Mapping[str, float | Span], common: Mapping[str, object], quiet: bool) -> list:
+def _beside(
+    module: ModuleType, given: Given, load: Load, taken: dict[str, Any]
+) -> tuple[xr.Dataset, list[xr.Dataset]]:
+    """What is drawn beside the branches: the transient amplitude, and sweeps up and down where they are wanted."""
     from delagrange.analysis.steady.stepped_sweep import stepped_sweep
 
-    span = load["frequency"]
-    low, high = sorted((span.start, span.stop))
-    up = np.linspace(low, high, _SWEEP_STEPS + 1)
-    fixed = {name: value for name, value in load.items() if name != "frequency"}
-    return [
-        stepped_sweep(model, frequency=values, dashpots="relaxed", progress=not quiet, **fixed, **common)
+    transient = _transient(module, given, load, taken)
+    if not given.sweeps:
+        return transient, []
+    up = np.linspace(*sorted(load["frequency"].ends), _SWEEP_STEPS + 1)
+    return transient, [
+        stepped_sweep(module, **(load | taken | {"frequency": values}), progress=not given.quiet)
         for values in (up, up[::-1])
     ]
-
-
-def _drawing(
-    result: xr.Dataset,
-    model: str,
-    load: Mapping[str, float | Span],
-    varied: str,
-    common: Mapping[str, object],
-    duration: float,
-    sweeps: bool,
-    quiet: bool,
-) -> Callable[[], Figure]:
-    """What draws the result, with what is to stand beside it computed."""
-    from delagrange.figures.steady_figure import draw_steady
-    from delagrange.figures.sweep_figure import draw_sweep
-
-    if "branch" not in result.dims:
-        return lambda: draw_sweep(result, varied)
-    transient = _transient(model, load, varied, common, duration, quiet)
-    stepped = _stepped(model, load, common, quiet) if sweeps else ()
-    return lambda: draw_steady(result, transient, stepped)
 
 
 def _as_table(result: xr.Dataset) -> xr.Dataset:

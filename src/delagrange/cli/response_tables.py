@@ -8,7 +8,6 @@ import numpy as np
 from rich.text import Text
 
 from delagrange.cli import console
-from delagrange.cli.response_load import LOAD_UNITS
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -20,7 +19,9 @@ _MOST_ROWS = 40
 def report_transient(result: xr.Dataset, varied: str) -> None:
     """Print the largest amplitude, and where along what varies it is."""
     amplitude = result["amplitude"].values
-    table = console.table(f"{varied} [{LOAD_UNITS[varied]}]", "largest amplitude [1]", "points", "lost")
+    table = console.table(
+        f"{varied} [{result[varied].attrs['units']}]", "largest amplitude [1]", "points", "lost"
+    )
     lost = int(np.sum(~np.isfinite(amplitude)))
     if lost == len(amplitude):
         table.add_row("-", "-", str(len(amplitude)), str(lost))
@@ -55,7 +56,7 @@ def report_steady(result: xr.Dataset, varied: str) -> None:
 
 
 def _branch_table(result: xr.Dataset, varied: str) -> Table:
-    unit = LOAD_UNITS[varied]
+    unit = result[varied].attrs["units"]
     headings = ("branch", "points", f"from [{unit}]", f"to [{unit}]", "amplitude [1]", "stability", "ends")
     table = console.table(*headings)
     for number in range(min(result.sizes["branch"], _MOST_ROWS)):
@@ -72,7 +73,7 @@ def _branch_table(result: xr.Dataset, varied: str) -> Table:
 
 
 def _bifurcation_table(result: xr.Dataset, varied: str) -> Table:
-    table = console.table("kind", f"{varied} [{LOAD_UNITS[varied]}]", "amplitude [1]", "branch")
+    table = console.table("kind", f"{varied} [{result[varied].attrs['units']}]", "amplitude [1]", "branch")
     count = result.sizes["bifurcation"]
     for place in range(min(count, _MOST_ROWS)):
         numbers = (result[f"bifurcation_{name}"].values[place] for name in (varied, "amplitude"))

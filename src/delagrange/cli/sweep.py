@@ -6,67 +6,28 @@ import warnings
 from typing import TYPE_CHECKING
 
 import numpy as np
-import typer
 
-from delagrange.cli import console, quantities
-from delagrange.cli import options as o
-from delagrange.cli.initial import start_given
-from delagrange.cli.interruption import Interrupted, interruptible
-from delagrange.cli.named import inputs_given, material_given
-from delagrange.common.files import check_writable, write_dataset
+from delagrange.cli import console
+from delagrange.cli.membrane import arguments, limits_given, loaded, start_given
+from delagrange.cli.options import Given
+from delagrange.cli.results import Interrupted, interruptible, tell_written, write, write_plot
 
 if TYPE_CHECKING:
     import xarray as xr
     from rich.table import Table
 
 _MOST_CURVES = 60  # rows of the printed table; the file has all
+_AXES = (
+    "force", "field_amplitude", "field_bias", "field_phase", "charge_amplitude", "charge_bias", "charge_phase",
+    "current_amplitude", "current_bias", "current_phase", "frequency",
+)  # fmt: skip
+_SETTINGS = (
+    "duration", "averages", "final_state", "section_points", "section_phase", "sample_interval", "window", "method",
+    "rtol", "atol", "engine", "step_control", "extrema", "threads",
+)  # fmt: skip
 
 
-def sweep(
-    context: typer.Context,
-    model: o.Model,
-    frequency: o.Frequencies,
-    duration: o.Duration,
-    field_amplitude: o.FieldAmplitudes = None,
-    formulation: o.Formulation = None,
-    lateral_dashpot: o.LateralDashpot = None,
-    held_stretch: o.HeldStretches = None,
-    force: o.Forces = None,
-    field_bias: o.FieldBiases = None,
-    field_phase: o.FieldPhases = None,
-    charge_amplitude: o.ChargeAmplitudes = None,
-    charge_bias: o.ChargeBiases = None,
-    charge_phase: o.ChargePhases = None,
-    current_amplitude: o.CurrentAmplitudes = None,
-    current_bias: o.CurrentBiases = None,
-    current_phase: o.CurrentPhases = None,
-    initial: o.Starts = None,
-    half_length: o.HalfLengths = None,
-    half_thickness: o.HalfThicknesses = None,
-    density: o.Densities = None,
-    permittivity: o.Permittivities = None,
-    shear_modulus_alpha: o.ShearModuliAlpha = None,
-    shear_modulus_beta: o.ShearModuliBeta = None,
-    viscosity: o.Viscosities = None,
-    relaxation_time: o.RelaxationTimes = None,
-    named_parameters: o.NamedParameters = None,
-    named_inputs: o.NamedInputs = None,
-    averages: o.Averages = False,
-    final_state: o.FinalState = False,
-    section_points: o.SectionPoints = None,
-    section_phase: o.SectionPhase = 0.0,
-    sample_interval: o.SampleInterval = None,
-    window: o.Window = None,
-    method: o.SweepMethod = "DOP853",
-    rtol: o.Rtol = 1e-9,
-    atol: o.Atol = 1e-12,
-    engine: o.Engine = "auto",
-    step_control: o.StepControl = None,
-    extrema: o.Extrema = "dense",
-    threads: o.Threads = None,
-    out: o.OutFile = None,
-    quiet: o.Quiet = False,
-) -> None:
+def sweep(given: Given) -> None:
     """Frequency response: the amplitude of forced motion over frequency and more.
 
     Every combination of the given values is a run, from rest unless --initial
@@ -88,49 +49,24 @@ def sweep(
       delagrange sweep pure-shear --held-stretch 2,3,4 --force 0.1 \\
           --field-amplitude 3e6 --frequency 1:801:5 --duration 0.12
     """
-    if out is not None:
-        check_writable(out)
-    from delagrange.model.load import load_model
-    from delagrange.run.sweep import SWEEP_UNITS
-
-    module = load_model(model, formulation, lateral_dashpot)
-    start = start_given(initial, {entry.name: entry.unit for entry in module.STATE})
-    axes = {name: quantities.axis(name, context.params[name], unit) for name, unit in SWEEP_UNITS.items()}
-    axes |= material_given(axes, named_parameters, module)
+    module = loaded(given)
+    taken = arguments(given, module, start_given(given, module)) | given.some(*_AXES, *_SETTINGS)
     with interruptible("the sweep was not finished, nothing was written"):
         from delagrange.run.frequency_response import frequency_response
 
         with warnings.catch_warnings():
             warnings.filterwarnings("ignore", message="interrupted")  # said once, at the end
             response = frequency_response(
-                model,
-                duration=duration,
-                formulation=formulation,
-                lateral_dashpot=lateral_dashpot,
-                initial_state=start,
-                inputs=inputs_given(named_inputs, module),
-                averages=averages,
-                final_state=final_state,
-                section_points=section_points,
-                section_phase=section_phase,
-                sample_interval=sample_interval,
-                window=quantities.window(window),
-                method=method,
-                rtol=rtol,
-                atol=atol,
-                engine=engine,
-                step_control=step_control,
-                extrema=extrema,
-                threads=threads,
-                progress=not quiet,
-                **{name: values for name, values in axes.items() if values is not None},
+                module, **taken, limits=limits_given(given), progress=not given.quiet
             )
-        if out is not None:
-            write_dataset(response, out)
+        write(response, given)
     _report(response)
-    if out is not None:
-        print(f"written: {out}")
-    _refuse_unfinished(response, f"are in {out} with that status" if out else "were not written")
+    tell_written(given)
+    if given.plot is not None:
+        from delagrange.figures.sweep_figure import draw_sweep
+
+        write_plot(given.plot, draw_sweep, response)
+    _refuse_unfinished(response, f"are in {given.out} with that status" if given.out else "were not written")
 
 
 def _refuse_unfinished(response: xr.Dataset, where: str) -> None:

@@ -64,3 +64,15 @@ def as_markdown(verdicts: tuple[Verdict, ...], details: bool) -> str:
 def _cell(text: str) -> str:
     """Text that a Markdown table takes as it stands: LaTeX is full of marks that it would read."""
     return "".join(f"\\{mark}" if mark in "\\|*_`<>[]" else mark for mark in text)
+
+
+def as_recorded(verdicts: tuple[Verdict, ...]) -> bool:
+    """Whether all verdicts are the recorded ones; those that are not are named on standard error."""
+    from delagrange.derive.check.record import departures, recorded
+
+    lines = departures(verdicts, recorded())
+    for line in lines:
+        console.complain(f"not as recorded: {line}")
+    if not lines:
+        console.output().print("[green]all as recorded[/]")
+    return not lines

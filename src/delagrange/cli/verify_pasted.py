@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 from rich.text import Text
 
 from delagrange.cli import console
-from delagrange.cli.interruption import interruptible
+from delagrange.cli.options import Given
+from delagrange.cli.results import interruptible
 from delagrange.model.load import is_path, load_model
 
 if TYPE_CHECKING:
@@ -16,16 +17,7 @@ if TYPE_CHECKING:
     from delagrange.derive.equations.euler_lagrange import EquationsOfMotion
 
 
-def verify_pasted(
-    model: str,
-    formulation: str | None,
-    lateral_dashpot: str | None,
-    pasted: list[str],
-    file: Path | None,
-    symbols: Path | None,
-    quantity: str | None,
-    quiet: bool,
-) -> tuple[Verdict, ...]:
+def verify_pasted(given: Given) -> tuple[Verdict, ...]:
     """The verdicts on equations as pasted and those of a file; all is read before anything is derived.
 
     Raises:
@@ -34,19 +26,20 @@ def verify_pasted(
     from delagrange.derive.check.pasted.check import PastedEquation, check_equations
     from delagrange.derive.check.pasted.file import PastedFile, read_equations, read_symbols
 
-    found = PastedFile(()) if file is None else read_equations(file)
-    entries = found.symbols + (() if symbols is None else read_symbols(symbols))
-    equations = (*(PastedEquation(latex, quantity=quantity) for latex in pasted), *found.equations)
-    eom = _equations_of(model, formulation, lateral_dashpot, quiet)
-    with interruptible("nothing was written"), console.messages(quiet).status("checking"):
+    found = PastedFile(()) if given.equations is None else read_equations(given.equations)
+    entries = found.symbols + (() if given.symbols is None else read_symbols(given.symbols))
+    pasted = [PastedEquation(latex, quantity=given.quantity) for latex in given.equation or ()]
+    equations = (*pasted, *found.equations)
+    eom = _equations_of(given)
+    with interruptible("nothing was written"), console.messages(given.quiet).status("checking"):
         return check_equations(eom, equations, entries)
 
 
-def list_model(model: str, formulation: str | None, lateral_dashpot: str | None, quiet: bool) -> None:
+def list_model(given: Given) -> None:
     """Print the symbols and the equations of a model; raises as `verify_pasted`."""
     from delagrange.derive.check.pasted.listing import listed_equations, listed_symbols
 
-    eom = _equations_of(model, formulation, lateral_dashpot, quiet)
+    eom = _equations_of(given)
     table = console.table("symbol", "quantity", "unit", "meaning")
     for each in listed_symbols(eom):
         quantity = each.quantity
@@ -57,17 +50,16 @@ def list_model(model: str, formulation: str | None, lateral_dashpot: str | None,
         print(f"\n{equation.quantity}:\n  {equation.latex}")
 
 
-def _equations_of(
-    model: str, formulation: str | None, lateral_dashpot: str | None, quiet: bool
-) -> EquationsOfMotion:
-    with interruptible("nothing was written"), console.messages(quiet).status(f"deriving {model}"):
+def _equations_of(given: Given) -> EquationsOfMotion:
+    model = given.model
+    with interruptible("nothing was written"), console.messages(given.quiet).status(f"deriving {model}"):
         if model.endswith(".toml"):
-            if formulation is not None or lateral_dashpot is not None:
+            if given.some("formulation", "lateral_dashpot"):
                 raise ValueError(
                     f"--formulation and --lateral-dashpot choose a built-in model; {model} says its own"
                 )
             return _described(Path(model))
-        return _built_in(model, formulation, lateral_dashpot)
+        return _built_in(model, given.formulation, given.lateral_dashpot)
 
 
 def _described(path: Path) -> EquationsOfMotion:

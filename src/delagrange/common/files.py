@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -22,10 +22,21 @@ def check_writable(path: Path) -> Path:
     Raises:
         ValueError: another suffix, a folder in the file's place, or a folder that takes no file.
     """
-    if path.suffix not in SUFFIXES:
-        allowed = " or ".join(f"{suffix} ({name})" for suffix, name in SUFFIXES.items())
-        raise ValueError(f"output file {path} must end in {allowed}, got {path.suffix or 'no suffix'!r}")
+    check_suffix("output file", path, SUFFIXES)
     return check_file(path)
+
+
+def check_suffix(what: str, path: Path, suffixes: Mapping[str, str]) -> None:
+    """Refuse a file that does not end as one of its kind.
+
+    suffixes: that are allowed, with their names
+
+    Raises:
+        ValueError: another suffix, or none.
+    """
+    if path.suffix not in suffixes:
+        allowed = " or ".join(f"{suffix} ({name})" for suffix, name in suffixes.items())
+        raise ValueError(f"{what} {path} must end in {allowed}, got {path.suffix or 'no suffix'!r}")
 
 
 def check_file(path: Path) -> Path:
