@@ -12,7 +12,7 @@ from user_membranes import write_membrane
 
 import delagrange as dl
 from delagrange.cli import main
-from delagrange.equilibrium import rest_state as rest_module
+from delagrange.equilibrium import start as start_module
 
 HARD = {"rtol": 1e-12, "atol": 1e-15}
 CURRENT, CHARGE = "nominal_current_density", "nominal_charge_density"
@@ -182,9 +182,9 @@ def test_what_does_not_leak_rests_without_current_alone():
 
 
 def test_every_run_of_a_sweep_has_its_own_which_is_solved_once(monkeypatch):
-    solved, solve = [], rest_module.resting_state
+    solved, solve = [], start_module.resting_state
     monkeypatch.setattr(
-        rest_module, "resting_state", lambda problem, *more: solved.append(problem) or solve(problem, *more)
+        start_module, "resting_state", lambda problem, *more: solved.append(problem) or solve(problem, *more)
     )
     axes = {"held_stretch": [1.5, 2.0], "shear_modulus_alpha": [1.5e4, 1.8e4, 2.1e4]}
     found = dl.frequency_response(

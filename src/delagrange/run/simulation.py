@@ -15,7 +15,7 @@ from delagrange.drives.inputs import Inputs
 from delagrange.equilibrium.start import starting_state
 from delagrange.model.load import check_offers, load_model
 from delagrange.model.parameters import Parameters, material_of
-from delagrange.model.variables import sign_of
+from delagrange.model.variables import role_of, sign_of
 from delagrange.problem import status as loss
 from delagrange.problem.initial import EQUILIBRIUM_MEANING, is_equilibrium
 from delagrange.problem.problem import Problem, input_name, make_problem
@@ -192,14 +192,11 @@ def _dataset(
 
 def _state_variables(problem: Problem, state: np.ndarray) -> dict[str, tuple]:
     return {
-        entry.name: variable("time", values, entry.unit, entry.meaning, entry.symbol, **_role(entry))
+        entry.name: variable(
+            "time", values, entry.unit, entry.meaning, entry.symbol, role=str(role_of(entry))
+        )
         for entry, values in zip(problem.model.STATE, state)
     }
-
-
-def _role(entry: object) -> dict[str, str]:
-    """What a module says a variable is in it; one that somebody wrote by hand may say nothing."""
-    return {"role": str(entry.role)} if hasattr(entry, "role") else {}
 
 
 def _input_variables(problem: Problem, inputs: list[np.ndarray]) -> dict[str, tuple]:
