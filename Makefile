@@ -49,11 +49,15 @@ derive: $(VENV)/.installed
 check-generated: $(VENV)/.installed
 	$(BIN)/python -m delagrange.derive --check
 
-test: $(VENV)/.tested lint check-generated
-	$(BIN)/python -m pytest --numprocesses auto
+# A file of tests stays on one worker, which makes its fixtures once; the files that take long come first.
+PYTEST := $(BIN)/python -m pytest --numprocesses auto
+BY_FILE := --dist loadfile --no-loadscope-reorder
+
+test: $(VENV)/.tested lint
+	$(PYTEST) $(BY_FILE) --durations 10
 
 test-matrix: $(VENV)/.tested
-	$(BIN)/python -m pytest --numprocesses auto tests/matrix/whole_matrix.py
+	$(PYTEST) tests/matrix/whole_matrix.py
 
 lint: $(VENV)/.tested
 	$(BIN)/ruff check .

@@ -19,13 +19,19 @@ from delagrange.derive.membrane.load_cases import BIAXIAL, EMITTED, LoadCase
 from delagrange.derive.pipeline import Derivation
 from delagrange.model import kernels
 
-pytest.register_assert_rewrite("every_membrane")
+pytest.register_assert_rewrite("every_membrane", "tidy")
 settings.register_profile(
     "delagrange", deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow]
 )
 settings.load_profile("delagrange")
 
 HASH_SEED = "4711"
+LONGEST = (  # the first two compile other kernels than each other
+    "test_emit_lanes.py", "test_guide.py", "test_charge_control.py", "test_each_pair.py", "test_locking.py",
+    "test_examples.py", "test_emit.py", "test_benchmarks.py", "test_limits.py", "test_classify.py", "test_load.py",
+    "test_figures.py", "test_compiled_faults.py", "test_relation_statics.py", "test_cli_verify.py", "test_runs.py",
+    "test_leakage_engines.py", "test_flow.py",
+)  # fmt: skip
 CASES = {case.name: case for case in (BIAXIAL, *EMITTED)}
 
 
@@ -74,6 +80,12 @@ def compiled_once():
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(kernels, "_compile", one_at_a_time)
         yield
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Files that take long come first, so that no worker is left with one of them alone at the end."""
+    places = {name: place for place, name in enumerate(LONGEST)}
+    items.sort(key=lambda item: places.get(item.path.name, len(LONGEST)))
 
 
 def pytest_sessionfinish(session: pytest.Session) -> None:

@@ -21,7 +21,7 @@ from hashlib import sha256
 from importlib import import_module
 from importlib.metadata import version
 from pathlib import Path
-from types import CellType, FunctionType, MappingProxyType
+from types import CellType, CodeType, FunctionType, MappingProxyType
 from typing import TypeVar
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -90,13 +90,14 @@ class _Whole(pickle.Pickler):
 
 
 class _Told(_Whole):
-    """A function is told by the file and the place that it stands in, and by what it holds."""
+    """A function is told by the file that it stands in, its code, and what it holds."""
 
     def reducer_override(self, thing):
         if isinstance(thing, FunctionType):
-            code = thing.__code__
-            place = _digest_of_file(code.co_filename), code.co_firstlineno, thing.__qualname__, code.co_code
-            return tuple, ((*place, thing.__defaults__, _held(thing)),)
+            file = _digest_of_file(thing.__code__.co_filename)
+            return tuple, ((file, thing.__qualname__, thing.__code__, thing.__defaults__, _held(thing)),)
+        if isinstance(thing, CodeType):
+            return tuple, ((thing.co_firstlineno, thing.co_code, thing.co_names, thing.co_consts),)
         return super().reducer_override(thing)
 
 
