@@ -25,11 +25,11 @@ import numpy as np
 MODEL = "equal_biaxial"
 DIGEST = "29e06058664142c4"
 OPERATIONS_PER_EVALUATION = 72
-LANES = 64
 STATE_COUNT = 3
 COORDINATE_COUNT = 1
 INPUT_COUNT = 2
 CONSTANT_COUNT = 8
+LANES = 64
 
 # Rows of `work` and `queue`. What a loop stores lies outside of the rows between those that it loads, or at
 # a known distance from them: then the compiler needs no proof that they do not overlap.
@@ -113,8 +113,8 @@ FIRST_SAMPLE = 11  # [s]
 SAMPLE_SPACING = 12  # [s]
 TABLE_ROWS = 13
 
-# Rows of a piece of the drives, each INPUT_COUNT, (5 * INPUT_COUNT, n_trajectories or 1); s is the time since
-# the piece began: level + slope * s + amplitude * sin(2 pi (frequency * s + phase)), phase in turns
+# Rows of a piece of the drives, each INPUT_COUNT, (5 * INPUT_COUNT, n_trajectories or 1); t is the time, s that
+# since the piece began: level + slope * s + amplitude * sin(2 pi (frequency * t + phase)), phase in turns
 LEVEL, SLOPE, AMPLITUDE, FREQUENCY, PHASE = (place * INPUT_COUNT for place in range(5))
 
 # Rows of `results`, (RESULT_ROWS, n_trajectories)
@@ -151,19 +151,25 @@ QUADRATURE = (  # nodes and weights of Gauss and Legendre on 0 .. 1
 WHOLE = (1 << 40) - 1  # larger than any place
 PROBES = 32  # places at which a step that turns more than once is searched
 
-_OPTIONS = {"nogil": True, "error_model": "numpy", "fastmath": {"contract", "nsz"}}
+_OPTIONS = {"nogil": True, "error_model": "numpy"}
+_CONTRACTED = {"fastmath": {"contract", "nsz"}, **_OPTIONS}
 
 
 def _compiled(function):
+    return numba.njit(no_cpython_wrapper=True, no_cfunc_wrapper=True, **_CONTRACTED)(function)
+
+
+def _exact(function):
+    """Compiled with every operation rounded as it is written."""
     return numba.njit(no_cpython_wrapper=True, no_cfunc_wrapper=True, **_OPTIONS)(function)
 
 
 def _cached(function):
     """Compiled once for all processes, where there is a folder that can keep it."""
     try:
-        return numba.njit(cache=True, **_OPTIONS)(function)
+        return numba.njit(cache=True, **_CONTRACTED)(function)
     except RuntimeError:
-        return numba.njit(**_OPTIONS)(function)
+        return numba.njit(**_CONTRACTED)(function)
 
 
 def constants(parameters):
@@ -203,6 +209,26 @@ def constants(parameters):
         constant_7,
         constant_8,
     ]
+
+
+@_exact
+def _fraction_of_turns(frequency, time):
+    """frequency * time without its whole turns: the rounding of the product is made good.
+
+    Dekker (1971), Numer. Math. 18, 224, Sec. 5.
+    """
+    product = frequency * time
+    rest = 134217729.0 * frequency
+    frequency_high = rest - (rest - frequency)
+    frequency_low = frequency - frequency_high
+    rest = 134217729.0 * time
+    time_high = rest - (rest - time)
+    time_low = time - time_high
+    slip = frequency_high * time_high - product
+    slip += frequency_high * time_low
+    slip += frequency_low * time_high
+    slip += frequency_low * time_low
+    return (product - np.rint(product)) + slip
 
 
 # The equations
@@ -301,17 +327,21 @@ def _sine(turns):
 
 
 @_compiled
-def _begin_inputs(work):
+def _begin_inputs(work, vibrates):
     """The argument of each sine and the line under it at the start of the step, and their change over it."""
     for i in range(INPUT_COUNT):
+        if vibrates[i]:
+            for k in range(LANES):
+                at = i * LANES + k
+                frequency = work[DRIVE + FREQUENCY * LANES + at]
+                turns = _fraction_of_turns(frequency, work[TIME + k])
+                work[TURNS + at] = turns + work[DRIVE + PHASE * LANES + at]
+                work[TURNS_STEP + at] = frequency * work[STEP + k]
         for k in range(LANES):
             at = i * LANES + k
-            since, step = work[TIME + k] - work[START + k], work[STEP + k]
-            frequency, slope = work[DRIVE + FREQUENCY * LANES + at], work[DRIVE + SLOPE * LANES + at]
-            work[TURNS + at] = frequency * since + work[DRIVE + PHASE * LANES + at]
-            work[TURNS_STEP + at] = frequency * step
-            work[LINE + at] = slope * since + work[DRIVE + LEVEL * LANES + at]
-            work[LINE_STEP + at] = slope * step
+            slope = work[DRIVE + SLOPE * LANES + at]
+            work[LINE + at] = slope * (work[TIME + k] - work[START + k]) + work[DRIVE + LEVEL * LANES + at]
+            work[LINE_STEP + at] = slope * work[STEP + k]
 
 
 @_compiled
@@ -336,7 +366,7 @@ def _inputs(work, node, vibrates):
 @_compiled
 def _stages(work, vibrates, averages):
     """The rates of a step at its stages and at its end; the state at the end is left in POINT."""
-    _begin_inputs(work)
+    _begin_inputs(work, vibrates)
     if averages:
         _begin_averages(work)
 
@@ -579,11 +609,11 @@ def _marks(work, doubt, smallest, largest):
             early = slope_0 + 0.25 * (2.0 * c2 + 0.25 * (3.0 * c3 + 0.25 * (4.0 * c4 + 1.25 * c5)))
             middle = slope_0 + 0.5 * (2.0 * c2 + 0.5 * (3.0 * c3 + 0.5 * (4.0 * c4 + 2.5 * c5)))
             late = slope_0 + 0.75 * (2.0 * c2 + 0.75 * (3.0 * c3 + 0.75 * (4.0 * c4 + 3.75 * c5)))
-            turns = 1.0 if slope_0 * early < 0.0 else 0.0
-            turns += 1.0 if early * middle < 0.0 else 0.0
-            turns += 1.0 if middle * late < 0.0 else 0.0
-            turns += 1.0 if late * slope_1 < 0.0 else 0.0
-            mark = 2.0 if turns > 1.5 else (1.0 if turns > 0.5 and record else 0.0)
+            reversals = 1.0 if slope_0 * early < 0.0 else 0.0
+            reversals += 1.0 if early * middle < 0.0 else 0.0
+            reversals += 1.0 if middle * late < 0.0 else 0.0
+            reversals += 1.0 if late * slope_1 < 0.0 else 0.0
+            mark = 2.0 if reversals > 1.5 else (1.0 if reversals > 0.5 and record else 0.0)
             work[TOP + at] = top
             work[NEARBY + at] = near
             work[FLAG + k] = max(work[FLAG + k], mark * work[MEASURED + k])
@@ -788,7 +818,7 @@ def _value(queue, at, x):
 
 
 @_compiled
-def _to_the_turn(queue, at, x):
+def _to_the_extremum(queue, at, x):
     """One of Newton's steps from x to where the slope of the interpolant vanishes, kept within 0 .. 1."""
     y = 1.0 - x
     value, slope, bend = queue[DENSE_6 + at], 0.0, 0.0
@@ -803,7 +833,7 @@ def _to_the_turn(queue, at, x):
 
 
 @_compiled
-def _turns(queue):
+def _extreme_values(queue):
     """The value of each coordinate where it turns within the queued steps, into TOP."""
     for i in range(COORDINATE_COUNT):
         for k in range(LANES):
@@ -811,10 +841,10 @@ def _turns(queue):
             slope_0 = queue[STATE + COORDINATE_COUNT * LANES + at]
             slope_1 = queue[END_SLOPE + at]
             x = min(max(slope_0 / (slope_0 - slope_1), 0.0), 1.0)
-            x = _to_the_turn(queue, at, x)
-            x = _to_the_turn(queue, at, x)
-            x = _to_the_turn(queue, at, x)
-            x = _to_the_turn(queue, at, x)
+            x = _to_the_extremum(queue, at, x)
+            x = _to_the_extremum(queue, at, x)
+            x = _to_the_extremum(queue, at, x)
+            x = _to_the_extremum(queue, at, x)
             queue[TOP + at] = _value(queue, at, x)
 
 
@@ -828,7 +858,7 @@ def _largest(queue, at, sign, upto):
         if value > best:
             best, place = value, x
     for _ in range(4):
-        x = _to_the_turn(queue, at, place)
+        x = _to_the_extremum(queue, at, place)
         if abs(x - place) > upto / PROBES:
             break
         place = x
@@ -993,7 +1023,7 @@ def _begin(work, vibrates):
     """The rate at the start of the step of every FRESH lane."""
     for row in range(STATE_COUNT * LANES):
         work[POINT + row] = work[STATE + row]
-    _begin_inputs(work)
+    _begin_inputs(work, vibrates)
     _inputs(work, 0.0, vibrates)
     _rates(work, np.int64(RATE_1))
     for i in range(STATE_COUNT):
@@ -1151,7 +1181,7 @@ def integrate(
             _stages(queue, vibrates, averages)
             _note_ends(queue)
             _interpolants(queue, vibrates)
-            _turns(queue)
+            _extreme_values(queue)
             count = min(queued, LANES)
             _look_into(queue, count, smallest, largest, averages, table, results, samples, duration)
             _move_up(queue, queued)

@@ -172,10 +172,10 @@ def _cached(function):
 def constants(parameters):
     """What of the equations does not move.
 
-    parameters: sequence of numbers in the order of PARAMETERS of the model
+    parameters: sequence of numbers or arrays in the order of PARAMETERS of the model
 
     Returns:
-        List of CONSTANT_COUNT numbers.
+        List of CONSTANT_COUNT numbers or arrays.
     """
     (
         half_length,
@@ -235,6 +235,26 @@ def constants(parameters):
         constant_21,
         constant_22,
     ]
+
+
+@_exact
+def _fraction_of_turns(frequency, time):
+    """frequency * time without its whole turns: the rounding of the product is made good.
+
+    Dekker (1971), Numer. Math. 18, 224, Sec. 5.
+    """
+    product = frequency * time
+    rest = 134217729.0 * frequency
+    frequency_high = rest - (rest - frequency)
+    frequency_low = frequency - frequency_high
+    rest = 134217729.0 * time
+    time_high = rest - (rest - time)
+    time_low = time - time_high
+    slip = frequency_high * time_high - product
+    slip += frequency_high * time_low
+    slip += frequency_low * time_high
+    slip += frequency_low * time_low
+    return (product - np.rint(product)) + slip
 
 
 # The equations
@@ -416,33 +436,14 @@ def _stretches(frame, vector):
 # The drives
 
 
-@_exact
-def _turns(frequency, time):
-    """frequency * time without its whole turns: the rounding of the product is made good.
-
-    Dekker (1971), Numer. Math. 18, 224, Sec. 5.
-    """
-    product = frequency * time
-    rest = 134217729.0 * frequency
-    frequency_high = rest - (rest - frequency)
-    frequency_low = frequency - frequency_high
-    rest = 134217729.0 * time
-    time_high = rest - (rest - time)
-    time_low = time - time_high
-    slip = frequency_high * time_high - product
-    slip += frequency_high * time_low
-    slip += frequency_low * time_high
-    slip += frequency_low * time_low
-    return (product - np.rint(product)) + slip
-
-
 @_compiled
 def _begin_drives(frame, start, since):
     """The turns of each drive `since` seconds after `start`, and that time."""
     frame[TIME] = start + since
     for i in range(INPUT_COUNT):
         frequency = frame[DRIVE + FREQUENCY + i]
-        frame[TURNS + i] = frame[DRIVE + PHASE + i] + _turns(frequency, start) + _turns(frequency, since)
+        frame[TURNS + i] = frame[DRIVE + PHASE + i] + _fraction_of_turns(frequency, start)
+        frame[TURNS + i] += _fraction_of_turns(frequency, since)
 
 
 @_compiled
@@ -617,7 +618,7 @@ def _begin_aside(columns, rates, aside):
 
 
 @_compiled
-def _note_turns(step, frame, sources, columns, vector, rates, point, aside, part, extrema):
+def _note_extrema(step, frame, sources, columns, vector, rates, point, aside, part, extrema):
     """Take the end of the step and the places where a coordinate turns in it into the extrema.
 
     A coordinate is taken to turn once or not at all: a step in which it turns twice is not accepted at the
@@ -782,7 +783,7 @@ def travel(times, sources, normalise, budget, frame, vector, states, growth, div
             frame[STATUS_TIME] = frame[TIME] + step
         else:
             frame[WISH] = _next_wish(frame, step, error)
-        _note_turns(step, frame, sources, columns, vector, rates, point, aside, part, extrema)
+        _note_extrema(step, frame, sources, columns, vector, rates, point, aside, part, extrema)
         frame[STEPS] += 1.0
         ends = step == length - since
         frame[SINCE] = since + step

@@ -32,7 +32,13 @@ def _environment() -> jinja2.Environment:
 
 def _check_keys(environment: jinja2.Environment, template: str, view: Mapping[str, object]) -> None:
     """A key that the template does not place, or lacks, is a slip in one of the two."""
-    source, _, _ = environment.loader.get_source(environment, template)  # type: ignore[union-attr]
-    placed = jinja2.meta.find_undeclared_variables(environment.parse(source))
-    if unmatched := sorted(placed ^ set(view)):
+    if unmatched := sorted(_placed(environment, template) ^ set(view)):
         raise KeyError(f"template {template} and its view differ in {', '.join(unmatched)}")
+
+
+def _placed(environment: jinja2.Environment, template: str) -> set[str]:
+    """The keys that a template and those that it imports place."""
+    source, _, _ = environment.loader.get_source(environment, template)  # type: ignore[union-attr]
+    parsed = environment.parse(source)
+    imported = (_placed(environment, name) for name in jinja2.meta.find_referenced_templates(parsed) if name)
+    return jinja2.meta.find_undeclared_variables(parsed).union(*imported)

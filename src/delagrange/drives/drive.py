@@ -12,8 +12,8 @@ import numpy as np
 
 from delagrange.common import checks
 from delagrange.common.units import with_unit
+from delagrange.drives.phase import Values, fraction_of_turns
 
-Values = float | np.ndarray
 _INPUT_UNIT = "the unit of the driven input"
 
 
@@ -94,7 +94,8 @@ class Sine(Drive):
         _set_positive(self, "frequency", "Hz")
 
     def at(self, time: Values) -> Values:
-        return self.bias + self.amplitude * np.sin(2 * np.pi * self.frequency * time + self.phase)
+        angle = 2 * np.pi * fraction_of_turns(self.frequency, time) + self.phase
+        return self.bias + self.amplitude * np.sin(angle)
 
 
 @dataclass(frozen=True)

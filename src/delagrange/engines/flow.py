@@ -14,6 +14,7 @@ import numpy as np
 from delagrange.common import checks
 from delagrange.drives.drive import Constant, Drive, Sine, Step
 from delagrange.drives.inputs import CHARGE_DENSITY
+from delagrange.drives.phase import fraction_of_turns
 from delagrange.model.variables import is_stretch
 from delagrange.problem.coordinate_size import straining_change
 from delagrange.problem.problem import Problem, input_name
@@ -149,7 +150,7 @@ def _numbers(name: str, drive: Drive) -> tuple[float, float, float, float]:
 def drive_slope(numbers: np.ndarray, number: int, time: float) -> float:
     """Derivative of bias + amplitude sin(2 pi frequency t + phase) by one of the four, (4,) `numbers`."""
     _, amplitude, frequency, phase = numbers
-    argument = 2 * np.pi * frequency * time + phase
+    argument = 2 * np.pi * fraction_of_turns(frequency, time) + phase
     slopes = (
         1.0,
         np.sin(argument),

@@ -7,7 +7,8 @@ from types import ModuleType
 
 import numpy as np
 
-from delagrange.engines.flow import FlowPath, Source, Travel, checked_start, drive_numbers
+from delagrange.drives.phase import fraction_of_period
+from delagrange.engines.flow import PHASE, FlowPath, Source, Travel, checked_start, drive_numbers
 from delagrange.model.kernels import VARIATIONAL, kernel_name, load_kernel
 from delagrange.problem.problem import Problem
 from delagrange.problem.status import DIVERGED
@@ -99,7 +100,7 @@ def _frame(kernel: ModuleType, path: FlowPath, columns: int) -> np.ndarray:
     with np.errstate(all="ignore"):  # what is beyond double precision is lost, and its status says so
         _place(frame, kernel.CONSTANT, kernel.constants(problem.parameters))
     drives = drive_numbers(problem)
-    drives[:, 3] = np.mod(drives[:, 3] / (2 * np.pi), 1.0)
+    drives[:, PHASE] = fraction_of_period(drives[:, PHASE])
     _place(frame, kernel.DRIVE, drives.T.ravel())
     _place(frame, kernel.WEIGHT, path.weights)
     frame[kernel.TOLERANCE] = path.tolerance

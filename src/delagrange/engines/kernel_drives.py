@@ -7,6 +7,7 @@ from types import ModuleType
 import numpy as np
 
 from delagrange.drives.drive import Constant, Drive, Line, Ramp, Sine, Step, Tabulated, Values
+from delagrange.drives.phase import fraction_of_period
 from delagrange.problem.problem import Problem
 
 Row = tuple[Values, Values, Values, Values, Values]  # level, slope, amplitude, frequency, phase in turns
@@ -39,13 +40,12 @@ def _starts(kernel: ModuleType) -> tuple[int, ...]:
 
 
 def _row(drive: Drive, start: float) -> Row:
-    """The smooth drive as a line and a sine of the time since `start` [s]."""
+    """The smooth drive as a line in the time since `start` [s] and a sine of the time."""
     match drive:
         case Constant():
             return drive.value, 0.0, 0.0, 1.0, 0.0
         case Line():
             return drive.at(start), drive.slope, 0.0, 1.0, 0.0
         case Sine():
-            turns = np.mod(drive.frequency * start + drive.phase / (2 * np.pi), 1.0)
-            return drive.bias, 0.0, drive.amplitude, drive.frequency, turns
+            return drive.bias, 0.0, drive.amplitude, drive.frequency, fraction_of_period(drive.phase)
     raise TypeError(f"no compiled kernel follows {drive}")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from delagrange.drives.phase import fraction_of_period
 from delagrange.engines.lanes import Sampling
 from delagrange.run.measures import Measures, whole_periods
 
@@ -38,12 +39,6 @@ def _section_sampling(
     _check_enough(measures, duration, frequency, np.maximum(held, 0))
     first = (held - measures.section_points + fraction) / frequency
     return _within_duration(Sampling(first, 1 / frequency, measures.section_points), duration)
-
-
-def fraction_of_period(phase: float | np.ndarray) -> float | np.ndarray:
-    """Part of a period, in [0, 1), that an angle [rad] is; rounding must not make it a whole one."""
-    fraction = np.mod(phase / (2 * np.pi), 1.0)
-    return np.where(fraction == 1.0, 0.0, fraction)[()]
 
 
 def _check_enough(measures: Measures, duration: float, frequency: np.ndarray, held: np.ndarray) -> None:

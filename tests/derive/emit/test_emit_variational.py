@@ -6,7 +6,6 @@ import ast
 import importlib.util
 import sys
 from dataclasses import replace
-from fractions import Fraction
 from importlib import import_module, resources
 
 import numba
@@ -15,8 +14,6 @@ import pytest
 import sympy as sp
 from conftest import PAPER_VALUES
 from first_order import duffing, first_order, lorenz, written
-from hypothesis import given
-from hypothesis import strategies as st
 
 from delagrange.derive.emit.variational_module import emit_variational
 from delagrange.derive.kernel.kernel import kernel
@@ -165,18 +162,6 @@ def test_a_name_with_two_meanings_is_refused():
     with pytest.raises(ValueError, match="half of jacobian is not what it is before"):
         joined("motion", [first, second])
     assert len(joined("motion", [first, replace(second, assignments=first.assignments)]).assignments) == 1
-
-
-# --- the drives --------------------------------------------------------------------------------------
-
-
-@given(frequency=st.floats(1e-3, 1e5), time=st.floats(-1e7, 1e7))
-def test_turns_are_exact(frequency, time):
-    """frequency * time modulo 1 is right to the last digits, however many whole turns there are."""
-    turns = import_module("delagrange.generated.equal_biaxial_variational")._turns.py_func(frequency, time)
-    off = Fraction(turns) - Fraction(frequency) * Fraction(time)
-    assert abs(off - round(off)) < 1e-15
-    assert abs(turns) < 1
 
 
 # --- other systems -----------------------------------------------------------------------------------

@@ -7,8 +7,8 @@ import xarray as xr
 
 from delagrange.common import checks
 from delagrange.drives.drive import Drive, Sine
+from delagrange.drives.phase import fraction_of_period
 from delagrange.run.run_dataset import variable
-from delagrange.run.sampling import fraction_of_period
 from delagrange.run.simulation import simulate
 
 
