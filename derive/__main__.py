@@ -15,6 +15,7 @@ from pathlib import Path
 from delagrange.derive import pipeline
 from delagrange.derive.check import record
 from delagrange.derive.check.report import as_text, summary
+from delagrange.derive.emit.write_together import write_together
 from delagrange.derive.pipeline import Derivation
 
 
@@ -56,7 +57,7 @@ def _run(options: argparse.Namespace) -> int:
         _complain_of(departed)
         _complain("no module is written: the verdicts are not as recorded; `--record` records them")
         return 1
-    pipeline.write(walked.modules, options.out)
+    write_together(walked.modules, options.out)
     print(f"{len(walked.modules)} modules in {options.out}")
     if options.record:
         _record(walked, departed)
@@ -77,7 +78,7 @@ def _checked(walked: Derivation, departed: tuple[str, ...], folder: Path) -> int
 def _record(walked: Derivation, departed: tuple[str, ...]) -> None:
     """Make the verdicts found the recorded ones, and say what that changes."""
     path = record.record_path()
-    pipeline.write(((path.name, record.to_json(walked.verdicts)),), path.parent)
+    write_together(((path.name, record.to_json(walked.verdicts)),), path.parent)
     for line in departed:
         print(f"changed in the record: {line}")
     print(f"{len(walked.verdicts)} verdicts recorded, changes: {len(departed)}")

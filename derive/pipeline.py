@@ -9,7 +9,7 @@ from pathlib import Path
 
 from delagrange.derive.check.verdict import Verdict
 from delagrange.derive.check.verify import verify
-from delagrange.derive.emit.targets import check_taken, emitted
+from delagrange.derive.emit.targets import emitted
 from delagrange.derive.equations.derived_equations import (
     check_dimensions,
     check_model_dimensions,
@@ -85,7 +85,7 @@ def derive_description(description: Description) -> tuple[tuple[str, str], ...]:
     """File name and text of the modules of a described membrane: NumPy, lanes, variational kernel.
 
     Raises:
-        ValueError: the description is not whole, or at odds with itself.
+        ValueError: the description is not whole, or at odds with itself or with what emitted code is written with.
         DimensionError: a term of what is derived has another unit than the others.
     """
     return emitted(description_spec(description))
@@ -98,9 +98,7 @@ def description_spec(description: Description) -> KernelSpec:
     sources = _sources(description)
     check_texts(description, sources, eom.quantities)
     origin = Origin(_COMMAND, _body_text(description), "", sources, _start_text(eom.load_case))
-    spec = kernel(eom, (), origin, description.defaults)
-    check_taken(spec)
-    return spec
+    return kernel(eom, (), origin, description.defaults)
 
 
 def _check_defaults(description: Description, eom: EquationsOfMotion) -> None:
@@ -132,22 +130,6 @@ def _sources(description: Description) -> tuple[str, ...]:
     own = [f"{energy.name}: {energy.source}" for energy in energies if energy.source]
     leakage = [] if description.dielectric.leakage is None else [f"leakage: {_LEAKAGE}"]
     return tuple(dict.fromkeys([*own, *leakage, *description.sources]))
-
-
-def write(modules: tuple[tuple[str, str], ...], folder: Path) -> None:
-    """Write the emitted modules, each as a whole or not at all.
-
-    Raises:
-        ValueError: the folder cannot be written.
-    """
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        for name, text in modules:
-            unfinished = folder / f"{name}.unfinished"
-            unfinished.write_text(text, encoding="utf-8", newline="\n")
-            unfinished.replace(folder / name)
-    except OSError as error:
-        raise ValueError(f"output folder {folder} cannot be written: {error.strerror}") from error
 
 
 def stale(modules: tuple[tuple[str, str], ...], folder: Path) -> tuple[str, ...]:

@@ -54,12 +54,13 @@ BIAS, AMPLITUDE, FREQUENCY, PHASE = (place * INPUT_COUNT for place in range(4)) 
 
 UNFINISHED, COMPLETED, COLLAPSED, DIVERGED = -1.0, 0.0, 1.0, 2.0  # what STATUS may be
 
-SAFETY, GROWTH, MEMORY = 0.9, 0.04375, 0.025  # of the PI controller, exponents of squared errors
+SAFETY, GROWTH, MEMORY = 0.9, 0.03, 0.015  # of the PI controller, exponents of squared errors
 SMALLEST_FACTOR, LARGEST_FACTOR = 0.2, 6.0  # of a step to the next
+SHRINKAGE = 0.0625  # after a step tried in vain, of squared errors
+SHORTEST = 1e-16  # step over duration at which a run is given up
+RESOLUTION = 2.5e-15  # step over time at which a run is given up
 LEAST_ERROR = 1e-8  # squared, that the controller remembers
 FIRST_STEP = 0.05  # over the time in which state or tangent would change by its own size, or a drive by a turn
-SHORTEST = 1e-16  # step over the whole time at which a run is given up
-RESOLUTION = 2.5e-15  # step over time at which a run is given up
 DOUBT = 0.05  # of a step's rise: how far the estimate of an extremum may be off
 NEAR = 1e-4  # of a step: how near an extremum must be, to take its value from a parabola
 
@@ -549,7 +550,7 @@ def _next_wish(frame, step, error):
 @_compiled
 def _shrunk(step, error):
     """The step to try after a rejected one [s]; an error that is not a number shrinks it as much as any."""
-    factor = SAFETY * error**-0.0625
+    factor = SAFETY * error**-SHRINKAGE
     return step * (factor if factor > SMALLEST_FACTOR else SMALLEST_FACTOR)
 
 

@@ -133,9 +133,10 @@ COMPLETED, COLLAPSED, DIVERGED, INTERRUPTED = 0.0, 1.0, 2.0, 3.0  # what STATUS 
 
 SAFETY, GROWTH, MEMORY = 0.9, 0.03, 0.015  # of the PI controller, exponents of squared errors
 SMALLEST_FACTOR, LARGEST_FACTOR = 0.2, 6.0  # of a step to the next
-FIRST_ERROR = -26.0  # binary logarithm of the squared error that a first step is taken to follow
+SHRINKAGE = 0.0625  # after a step tried in vain, of squared errors
 SHORTEST = 1e-16  # step over duration at which a run is given up
 RESOLUTION = 2.5e-15  # step over time at which a run is given up
+FIRST_ERROR = -26.0  # binary logarithm of the squared error that a first step is taken to follow
 DOUBT = 5e-6  # of the bend of a step: how far an estimate of where it turns may be off, at tight tolerances
 BLOCKS = 3 + 4 * COORDINATE_COUNT  # of LANES places in the queue, more than one step of all lanes may need
 QUADRATURE = (  # nodes and weights of Gauss and Legendre on 0 .. 1
@@ -663,7 +664,7 @@ def _control(work, duration):
         bounded = error if error < 1e20 else 1e20  # NaN too
         size = _logarithm(bounded if bounded > 1e-20 else 1e-20)
         grown = SAFETY * _power(MEMORY * old_size - GROWTH * size)
-        shrunk = SAFETY * _power(-0.0625 * size)
+        shrunk = SAFETY * _power(-SHRINKAGE * size)
         grown = min(max(grown, SMALLEST_FACTOR), LARGEST_FACTOR)
         shrunk = min(max(shrunk, SMALLEST_FACTOR), SAFETY)
         time = end if accepted else start

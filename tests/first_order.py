@@ -11,7 +11,6 @@ import sympy as sp
 from delagrange.derive.emit.numpy_module import emit
 from delagrange.derive.emit.variational_module import emit_variational
 from delagrange.derive.kernel.spec import KernelFunction, KernelSpec
-from delagrange.derive.kernel.variational_spec import variational_spec
 from delagrange.derive.notation.symbols import Quantity
 
 
@@ -71,6 +70,5 @@ def duffing() -> KernelSpec:
 def written(spec: KernelSpec, folder: Path) -> ModuleType:
     """The emitted NumPy module, with its variational kernel beside it; `folder` must be on Python's path."""
     (folder / f"{spec.name}.py").write_text(emit(spec), encoding="utf-8")
-    text = emit_variational(variational_spec(spec))
-    (folder / f"{spec.name}_variational.py").write_text(text, encoding="utf-8")
+    (folder / f"{spec.name}_variational.py").write_text(emit_variational(spec), encoding="utf-8")
     return import_module(spec.name)

@@ -2,37 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import dataclass
-
-from delagrange.derive.kernel.lane_spec import LaneSpec
+from delagrange.derive.emit.compiled import Rows, placed
+from delagrange.derive.kernel.compiled_spec import CompiledSpec
 
 
-@dataclass(frozen=True)
-class Rows:
-    """Some rows of an array under one name."""
-
-    name: str
-    start: int
-    count: int
-    meaning: str
-
-
-def placed(entries: Iterable[tuple[str, int, str]]) -> tuple[Rows, ...]:
-    """Rows one after the other, from (name, count, meaning)."""
-    rows, start = [], 0
-    for name, count, meaning in entries:
-        rows.append(Rows(name, start, count, meaning))
-        start += count
-    return tuple(rows)
-
-
-def total(rows: tuple[Rows, ...]) -> int:
-    """How many rows there are in all."""
-    return rows[-1].start + rows[-1].count
-
-
-def work_rows(spec: LaneSpec, stages: int) -> tuple[Rows, ...]:
+def work_rows(spec: CompiledSpec, stages: int) -> tuple[Rows, ...]:
     """Rows of the work array of a kernel whose interpolant needs `stages` stages."""
     n, q, inputs = len(spec.model.state), spec.model.coordinate_count, len(spec.model.inputs)
     return placed(
@@ -92,7 +66,7 @@ def work_rows(spec: LaneSpec, stages: int) -> tuple[Rows, ...]:
     )  # fmt: skip
 
 
-def table_rows(spec: LaneSpec) -> tuple[Rows, ...]:
+def table_rows(spec: CompiledSpec) -> tuple[Rows, ...]:
     """Rows of what a trajectory is made of."""
     return placed(
         [
@@ -104,7 +78,7 @@ def table_rows(spec: LaneSpec) -> tuple[Rows, ...]:
     )
 
 
-def result_rows(spec: LaneSpec) -> tuple[Rows, ...]:
+def result_rows(spec: CompiledSpec) -> tuple[Rows, ...]:
     """Rows of what is kept of a trajectory."""
     n, q = len(spec.model.state), spec.model.coordinate_count
     return placed(

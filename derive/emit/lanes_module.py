@@ -6,51 +6,69 @@ machine.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
-import sympy as sp
+import mpmath
 
-from delagrange.derive.emit.code_lines import WIDTH, broken
-from delagrange.derive.emit.compiled_lines import (
-    PRINTER,
-    assignment_lines,
-    constants_lines,
-    extreme_stretches_lines,
+from delagrange.derive.emit.compiled import (
+    COMPILED_WORDS,
+    Places,
+    Rows,
+    body_lines,
+    compiled_view,
+    placed,
+    total,
 )
-from delagrange.derive.emit.lane_rows import Rows, placed, result_rows, table_rows, total, work_rows
+from delagrange.derive.emit.lane_rows import result_rows, table_rows, work_rows
+from delagrange.derive.emit.python_lines import NUMPY, WIDTH
 from delagrange.derive.emit.runge_kutta import Pair, Row, Stage, dop853, quadrature
-from delagrange.derive.emit.sine import sine_coefficients
+from delagrange.derive.emit.target import Target
 from delagrange.derive.emit.template import render
-from delagrange.derive.kernel.arranged import operations_of
-from delagrange.derive.kernel.lane_spec import LaneSpec
-from delagrange.derive.kernel.spec import KernelFunction
+from delagrange.derive.kernel.arranged import NUMBERED, operations_of
+from delagrange.derive.kernel.compiled_spec import CompiledSpec, lane_spec
+from delagrange.derive.kernel.spec import KernelSpec
 
 _TEMPLATE = "lanes_module.py.jinja"
 _LANES = 64  # enough to hide how long an operation takes, and to share what a loop costs to set up
 _SINE_TERMS = 8  # right to 4e-16
+_SINE_DIGITS = 60
 _QUADRATURE_POINTS = 8  # exact for the square of the interpolant, of degree 14
 _ENDS = ("LEAST", "MOST")  # rows of the stretches at the ends of queued steps
-_CONTROL = {"safety": 0.9, "growth": 0.03, "memory": 0.015}
 
 
-def emit_lanes(spec: LaneSpec) -> str:
-    """The text of the compiled module that `spec` describes."""
-    return render(_TEMPLATE, _view(spec, dop853()))
+def emit_lanes(spec: KernelSpec) -> str:
+    """The text of the ensemble kernel of the model that `spec` describes."""
+    return render(_TEMPLATE, _view(lane_spec(spec), dop853()))
 
 
-def _view(spec: LaneSpec, pair: Pair) -> dict[str, Any]:
+LANES = Target(
+    "_lanes.py", NUMPY, emit_lanes, COMPILED_WORDS | {"work", "rows", "k", "LANES", "POINT", "WHOLE"}, NUMBERED
+)
+
+
+def _place(row: str, number: int) -> str:
+    return f"{row} + k" if number == 0 else f"{row} + {f'{number} * ' if number > 1 else ''}LANES + k"
+
+
+def _entry(row: str) -> Callable[[int], str]:
+    return lambda number: f"work[{_place(row, number)}]"
+
+
+_PLACES = Places(_entry("POINT"), _entry("INPUT"), _entry("CONSTANT"))
+
+
+def _view(spec: CompiledSpec, pair: Pair) -> dict[str, Any]:
     """Everything that the template places, ready as text."""
     sine = sine_coefficients(_SINE_TERMS)
     return {
-        **_names_and_sizes(spec, pair),
-        **_CONTROL,
-        "operations": spec.operations,
+        **compiled_view(spec, _PLACES),
+        **_rows(spec, pair),
+        "lanes": _LANES,
+        "last": pair.last,
         "sine_operations": _sine_operations(len(sine)),
-        "constants_body": "\n".join(constants_lines(spec.model.parameters, spec.volume, spec.constants)),
         "rates_body": "\n".join(_rates_lines(spec)),
-        "stretches_body": "\n".join(_stretches_lines(spec)),
-        **_limits(spec),
+        "validity_operations": 0 if spec.validity is None else operations_of(spec.validity),
         "sine_body": "\n".join(_horner_lines(sine)),
         "stages": [_stage_view(stage, dict(pair.weights), "work") for stage in pair.stages],
         "extra_stages": [_stage_view(stage, {}, "queue") for stage in pair.extra_stages],
@@ -65,31 +83,10 @@ def _view(spec: LaneSpec, pair: Pair) -> dict[str, Any]:
     }
 
 
-def _limits(spec: LaneSpec) -> dict[str, Any]:
-    """Whether the energies of the model have limits, and what is left to them."""
-    validity = spec.validity
-    return {
-        "has_limits": validity is not None,
-        "validity_body": "" if validity is None else "\n".join(_validity_lines(validity, spec)),
-        "validity_operations": 0 if validity is None else operations_of(validity),
-    }
-
-
-def _names_and_sizes(spec: LaneSpec, pair: Pair) -> dict[str, Any]:
+def _rows(spec: CompiledSpec, pair: Pair) -> dict[str, Any]:
     work = _needed(work_rows(spec, pair.last + 1 + len(pair.extra_stages)), spec)
     table, results = table_rows(spec), result_rows(spec)
     return {
-        "command": spec.model.origin.command,
-        "title": spec.model.title,
-        "name": spec.model.name,
-        "digest": spec.model.digest,
-        "sympy_version": sp.__version__,
-        "lanes": _LANES,
-        "last": pair.last,
-        "state_count": len(spec.model.state),
-        "coordinate_count": spec.model.coordinate_count,
-        "input_count": len(spec.model.inputs),
-        "constant_count": len(spec.constants),
         "rows": work,
         "size": total(work),
         "table_rows": table,
@@ -99,11 +96,24 @@ def _names_and_sizes(spec: LaneSpec, pair: Pair) -> dict[str, Any]:
     }
 
 
-def _needed(rows: tuple[Rows, ...], spec: LaneSpec) -> tuple[Rows, ...]:
+def _needed(rows: tuple[Rows, ...], spec: CompiledSpec) -> tuple[Rows, ...]:
     """Where energies have limits, a lost step is marked before it is queued, and its end is looked at no more."""
     if spec.validity is None:
         return rows
     return placed((row.name, row.count, row.meaning) for row in rows if row.name not in _ENDS)
+
+
+def sine_coefficients(count: int) -> tuple[float, ...]:
+    """c with sin(2 pi x) = x (c_0 + c_1 x^2 + ...) for -1/4 <= x <= 1/4, nearly minimax, rounded to doubles."""
+    with mpmath.workdps(_SINE_DIGITS):
+        highest_first = mpmath.chebyfit(_sine_over_x, [0, mpmath.mpf(1) / 16], count)
+        return tuple(float(coefficient) for coefficient in reversed(highest_first))
+
+
+def _sine_over_x(square: mpmath.mpf) -> mpmath.mpf:
+    """sin(2 pi x) / x as a function of x^2."""
+    x = mpmath.sqrt(square)
+    return mpmath.sin(2 * mpmath.pi * x) / x if x else 2 * mpmath.pi
 
 
 def _sine_operations(terms: int) -> int:
@@ -145,43 +155,9 @@ def _sum_lines(head: str, row: Row, array: str) -> list[str]:
     return [*lines, *body, f"{indent})"]
 
 
-def _loads(function: KernelFunction, spec: LaneSpec, indent: str) -> list[str]:
-    """What the function needs of state, inputs and constants, from their rows of lane k."""
-    groups = (
-        ("POINT", [entry.name for entry in spec.model.state]),
-        ("INPUT", [entry.name for entry in spec.model.inputs]),
-        ("CONSTANT", [constant.name for constant in spec.constants]),
-    )
-    return [
-        f"{indent}{name} = work[{_place(row, number)}]"
-        for row, names in groups
-        for number, name in enumerate(names)
-        if function.uses(name)
-    ]
-
-
-def _place(row: str, number: int) -> str:
-    return f"{row} + k" if number == 0 else f"{row} + {f'{number} * ' if number > 1 else ''}LANES + k"
-
-
-def _body(function: KernelFunction, spec: LaneSpec, indent: str) -> list[str]:
-    statements = (line for a in function.assignments for line in assignment_lines(a, indent))
-    return [*_loads(function, spec, indent), *statements]
-
-
-def _rates_lines(spec: LaneSpec) -> list[str]:
+def _rates_lines(spec: CompiledSpec) -> list[str]:
     indent = " " * 8
     stores = [
-        f"{indent}work[{_place('out', number)}] = {PRINTER(output)}"
-        for number, output in enumerate(spec.rates.outputs)
+        f"{indent}work[{_place('out', number)}] = {NUMPY(rate)}" for number, rate in enumerate(spec.rates)
     ]
-    return [*_body(spec.rates, spec, indent), *stores]
-
-
-def _stretches_lines(spec: LaneSpec) -> list[str]:
-    function = spec.principal_stretches
-    return [*_body(function, spec, "    "), *extreme_stretches_lines(function)]
-
-
-def _validity_lines(validity: KernelFunction, spec: LaneSpec) -> list[str]:
-    return [*_body(validity, spec, "    "), *broken("return ", validity.outputs[0], PRINTER, "    ")]
+    return [*body_lines(spec.motion, spec, _PLACES, indent), *stores]

@@ -13,21 +13,14 @@ from typing import Any
 import sympy as sp
 
 from delagrange.derive.check.verdict import Outcome, Verdict
-from delagrange.derive.emit.code_lines import WIDTH, broken, unpacked
+from delagrange.derive.emit.python_lines import NUMPY, PYTHON_WORDS, WIDTH, assignment_lines, broken, unpacked
+from delagrange.derive.emit.target import Target
 from delagrange.derive.emit.template import render
-from delagrange.derive.kernel.spec import Assignment, KernelFunction, KernelSpec, SpringAtRest
-from delagrange.derive.notation.printer import NUMPY_FUNCTIONS, ExpressionPrinter, text_printer
+from delagrange.derive.kernel.spec import KernelFunction, KernelSpec, SpringAtRest
+from delagrange.derive.notation.printer import ExpressionPrinter, text_printer
 from delagrange.derive.notation.symbols import Quantity
 
 _TEMPLATE = "numpy_module.py.jinja"
-
-_NUMPY = ExpressionPrinter(lambda symbol: symbol.name, NUMPY_FUNCTIONS)
-
-
-def _assignment_lines(assignment: Assignment) -> list[str]:
-    comment = [f"    # {assignment.comment}"] if assignment.comment else []
-    return comment + broken(f"{assignment.name} = ", assignment.expression, _NUMPY, "    ")
-
 
 def _arguments(function: KernelFunction, quantities: tuple[Quantity, ...], source: str) -> list[str]:
     """Unpack what the function uses, `_` for what it does not; nothing where it uses none."""
@@ -37,8 +30,8 @@ def _arguments(function: KernelFunction, quantities: tuple[Quantity, ...], sourc
 
 def _return_lines(function: KernelFunction) -> list[str]:
     if not function.shape:
-        return broken("return ", function.outputs[0], _NUMPY, "    ")
-    return _stacked_lines(function.shape, [_NUMPY(output) for output in function.outputs])
+        return broken("return ", function.outputs[0], NUMPY, "    ")
+    return _stacked_lines(function.shape, [NUMPY(output) for output in function.outputs])
 
 
 def _stacked_lines(shape: tuple[int, ...], outputs: list[str]) -> list[str]:
@@ -72,7 +65,7 @@ def _function_view(function: KernelFunction, spec: KernelSpec) -> dict[str, Any]
         *_arguments(function, spec.inputs, "inputs"),
         *_arguments(function, spec.parameters, "parameters"),
         *_acceleration_lines(function, spec),
-        *(line for assignment in function.assignments for line in _assignment_lines(assignment)),
+        *(line for assignment in function.assignments for line in assignment_lines(assignment)),
         *_return_lines(function),
     ]
     return {
@@ -116,7 +109,7 @@ def _start_text(spec: KernelSpec) -> str:
 
 
 def _as_float(value: sp.Expr) -> str:
-    return f"{value}.0" if value.is_Integer else _NUMPY(value)
+    return f"{value}.0" if value.is_Integer else NUMPY(value)
 
 
 def _of_parameters(
@@ -208,3 +201,11 @@ def _view(spec: KernelSpec) -> dict[str, Any]:
 def emit(spec: KernelSpec) -> str:
     """The text of the NumPy module that `spec` describes."""
     return render(_TEMPLATE, _view(spec))
+
+
+NUMPY_MODULE = Target(
+    ".py",
+    NUMPY,
+    emit,
+    PYTHON_WORDS | {"state", "inputs", "parameters", "reference_state", "shear_moduli_at_rest"},
+)

@@ -8,67 +8,51 @@ from __future__ import annotations
 
 import textwrap
 from collections.abc import Iterator
-from keyword import iskeyword
 from typing import Any
 
 import sympy as sp
 
-from delagrange.derive.emit.code_lines import WIDTH, broken
-from delagrange.derive.emit.compiled_lines import (
-    PRINTER,
-    assignment_lines,
-    constants_lines,
-    extreme_stretches_lines,
+from delagrange.derive.emit.compiled import (
+    COMPILED_WORDS,
+    Places,
+    Rows,
+    body_lines,
+    compiled_view,
+    placed,
+    total,
 )
-from delagrange.derive.emit.lane_rows import Rows, placed, total
+from delagrange.derive.emit.python_lines import NUMPY, WIDTH, broken
 from delagrange.derive.emit.runge_kutta import Pair, Row, dop853
+from delagrange.derive.emit.target import Target
 from delagrange.derive.emit.template import render
-from delagrange.derive.kernel.spec import KernelFunction
-from delagrange.derive.kernel.variational_spec import VariationalSpec
+from delagrange.derive.kernel.arranged import NUMBERED
+from delagrange.derive.kernel.compiled_spec import CompiledSpec, variational_spec
+from delagrange.derive.kernel.spec import KernelSpec
 
 _TEMPLATE = "variational_module.py.jinja"
-_CONTROL = {"safety": 0.9, "growth": 0.04375, "memory": 0.025}  # 0.7 / 8 and 0.4 / 8, of squared errors
+_PLACES = Places("vector[{}]".format, "frame[INPUT + {}]".format, "frame[CONSTANT + {}]".format)
 
-_OWN_NAMES = frozenset(  # of the functions that the equations are placed in, and what they call
-    {"frame", "sources", "columns", "vector", "rates", "out", "column", "at", "push", "least", "most"}
-    | {"min", "max", "range", "np", "numba"}
+
+def emit_variational(spec: KernelSpec) -> str:
+    """The text of the variational kernel of the model that `spec` describes."""
+    return render(_TEMPLATE, _view(variational_spec(spec), dop853()))
+
+
+VARIATIONAL = Target(
+    "_variational.py",
+    NUMPY,
+    emit_variational,
+    COMPILED_WORDS
+    | {"frame", "sources", "columns", "vector", "rates", "column", "at", "push", "COLUMN", "STATE_COUNT"},
+    NUMBERED | {"slope", "push", "tangent"},
 )
 
 
-def emit_variational(spec: VariationalSpec) -> str:
-    """The text of the compiled module that `spec` describes.
-
-    Raises:
-        ValueError: a quantity of the model has a name that the module needs for itself.
-    """
-    _check_names(spec)
-    return render(_TEMPLATE, _view(spec, dop853()))
-
-
-def _check_names(spec: VariationalSpec) -> None:
-    model = spec.model
-    for quantity in (*model.state, *model.inputs, *model.parameters):
-        if quantity.name in _OWN_NAMES or not quantity.name.isidentifier() or iskeyword(quantity.name):
-            raise ValueError(
-                f"{model.name}: no quantity of a compiled kernel may be called {quantity.name!r}"
-            )
-
-
-def _view(spec: VariationalSpec, pair: Pair) -> dict[str, Any]:
+def _view(spec: CompiledSpec, pair: Pair) -> dict[str, Any]:
     """Everything that the template places, ready as text."""
-    model, places = spec.model, _places(spec)
+    places = _places(spec)
     return {
-        **_CONTROL,
-        "command": model.origin.command,
-        "title": model.title,
-        "name": model.name,
-        "digest": model.digest,
-        "sympy_version": sp.__version__,
-        "operations": spec.operations,
-        "state_count": len(model.state),
-        "coordinate_count": model.coordinate_count,
-        "input_count": len(model.inputs),
-        "constant_count": len(spec.constants),
+        **compiled_view(spec, _PLACES),
         "places": places,
         "frame_size": total(places),
         "last": pair.last,
@@ -76,15 +60,11 @@ def _view(spec: VariationalSpec, pair: Pair) -> dict[str, Any]:
         "table": [_row_text(row, pair.last, 8) for row in ((), *(stage.row for stage in pair.stages))],
         "fifth": _row_text(pair.errors[0], pair.last, 4),
         "third": _row_text(pair.errors[1], pair.last, 4),
-        "constants_body": "\n".join(constants_lines(model.parameters, spec.volume, spec.constants)),
         "motion_body": "\n".join(_motion_lines(spec)),
-        "stretches_body": "\n".join(_stretches_lines(spec)),
-        "has_limits": spec.validity is not None,
-        "validity_body": "\n".join(_validity_lines(spec)),
     }
 
 
-def _places(spec: VariationalSpec) -> tuple[Rows, ...]:
+def _places(spec: CompiledSpec) -> tuple[Rows, ...]:
     inputs = len(spec.model.inputs)
     return placed(
         [
@@ -118,30 +98,13 @@ def _row_text(row: Row, length: int, indent: int) -> str:
     return "\n".join([" " * indent + "(", *lines, " " * indent + ")"])
 
 
-def _loads(function: KernelFunction, spec: VariationalSpec) -> list[str]:
-    """What the function needs of state, inputs and constants, from their places."""
-    model = spec.model
-    groups = (
-        ("vector[{}]", [entry.name for entry in model.state]),
-        ("frame[INPUT + {}]", [entry.name for entry in model.inputs]),
-        ("frame[CONSTANT + {}]", [constant.name for constant in spec.constants]),
-    )
-    return [
-        f"    {name} = {source.format(number)}"
-        for source, names in groups
-        for number, name in enumerate(names)
-        if function.uses(name)
-    ]
-
-
-def _motion_lines(spec: VariationalSpec) -> list[str]:
+def _motion_lines(spec: CompiledSpec) -> list[str]:
     size = len(spec.model.state)
     slopes, slope_names = _named("slope", spec.slopes)
     pushes, push_names = _named("push", spec.input_slopes)
     trace = sp.Add(*(slope_names[place, place] for place in range(size)))
     return [
-        *_loads(spec.motion, spec),
-        *(line for a in spec.motion.assignments for line in assignment_lines(a, "    ")),
+        *body_lines(spec.motion, spec, _PLACES, "    "),
         *(line for place, rate in enumerate(spec.rates) for line in _store(f"out + {place}", rate, "    ")),
         *slopes,
         *_store("out + STATE_COUNT * (columns + 1)", trace, "    "),
@@ -152,7 +115,7 @@ def _motion_lines(spec: VariationalSpec) -> list[str]:
 
 
 def _store(place: str, value: sp.Expr, indent: str) -> list[str]:
-    return broken(f"rates[{place}] = ", value, PRINTER, indent)
+    return broken(f"rates[{place}] = ", value, NUMPY, indent)
 
 
 def _named(stem: str, matrix: sp.Matrix) -> tuple[list[str], sp.Matrix]:
@@ -161,7 +124,7 @@ def _named(stem: str, matrix: sp.Matrix) -> tuple[list[str], sp.Matrix]:
     for row, column in _entries(matrix):
         if not matrix[row, column].is_number:
             names[row, column] = sp.Symbol(f"{stem}_{row + 1}_{column + 1}")
-            lines += broken(f"{names[row, column]} = ", matrix[row, column], PRINTER, "    ")
+            lines += broken(f"{names[row, column]} = ", matrix[row, column], NUMPY, "    ")
     return lines, names
 
 
@@ -184,20 +147,6 @@ def _column_lines(slopes: sp.Matrix, pushes: sp.Matrix) -> list[str]:
         lines += [
             f"if sources[column, 0] == {source}:",
             "    push = frame[COLUMN + column]",
-            *(f"    rates[out + at + {row}] += {PRINTER(value)} * push" for row, value in added),
+            *(f"    rates[out + at + {row}] += {NUMPY(value)} * push" for row, value in added),
         ]
     return lines
-
-
-def _stretches_lines(spec: VariationalSpec) -> list[str]:
-    function = spec.principal_stretches
-    statements = (line for a in function.assignments for line in assignment_lines(a, "    "))
-    return [*_loads(function, spec), *statements, *extreme_stretches_lines(function)]
-
-
-def _validity_lines(spec: VariationalSpec) -> list[str]:
-    function = spec.validity
-    if function is None:
-        return []
-    statements = (line for a in function.assignments for line in assignment_lines(a, "    "))
-    return [*_loads(function, spec), *statements, *broken("return ", function.outputs[0], PRINTER, "    ")]

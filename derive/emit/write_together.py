@@ -1,4 +1,4 @@
-"""The files of one model, all of them or none: a module must not stand beside the kernels of another."""
+"""Files that belong together, all of them or none: a module must not stand beside the kernels of another."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from pathlib import Path
 
 
 def write_together(files: tuple[tuple[str, str], ...], folder: Path) -> None:
-    """Write files of one model, given as name and text, into a folder, which is made if it is missing.
+    """Write files, given as name and text, into a folder, which is made if it is missing.
 
     If one cannot be written, or the writing is interrupted, what stood there before stands there again.
 

@@ -9,17 +9,37 @@ from collections.abc import Callable, Iterable, Mapping
 
 import sympy as sp
 
-from delagrange.derive.kernel.lane_constants import Constants
-from delagrange.derive.kernel.operations import operations
+from delagrange.derive.kernel.constants import Constants
 from delagrange.derive.kernel.products import share_products
 from delagrange.derive.kernel.reciprocals import denominators, share_division, without_division
 from delagrange.derive.kernel.shared import share_subexpressions
 from delagrange.derive.kernel.spec import Assignment, KernelFunction, KernelSpec
 
+NUMBERED = frozenset({"constant", "factor", "product", "reciprocal", "shared", "denominator"})  # names given here
+
 
 def operations_of(function: KernelFunction) -> int:
     """How many floating-point operations one evaluation of a function takes."""
     return operations((*(a.expression for a in function.assignments), *function.outputs))
+
+
+def operations(expressions: Iterable[sp.Expr]) -> int:
+    """Additions, products, divisions and calls; an integer power counts as its products."""
+    return sum(_operations_of(expression) for expression in expressions)
+
+
+def _operations_of(expression: sp.Expr) -> int:
+    inner = operations(expression.args)
+    match expression:
+        case sp.Add():
+            return inner + len(expression.args) - 1
+        case sp.Mul():
+            return inner + len(expression.args) - 1 - (expression.args[0] == -1)
+        case sp.Pow(args=(_, sp.Integer(p=exponent))):
+            return inner + max(abs(exponent) - 1, 0) + (exponent < 0)
+        case sp.Atom():
+            return 0
+    return inner + 1
 
 
 def volume_of(function: KernelFunction) -> Assignment | None:

@@ -11,7 +11,7 @@ from delagrange.common.checks import did_you_mean
 from delagrange.common.dimension import Dimension
 from delagrange.derive.membrane.strain_energy import StrainEnergy, Stretches, rest_stresses
 from delagrange.derive.notation.dimensions import DimensionError, dimension_of
-from delagrange.derive.notation.printer import NUMPY_FUNCTIONS
+from delagrange.derive.notation.printer import FUNCTIONS
 from delagrange.derive.notation.symbols import Quantity
 
 
@@ -34,7 +34,7 @@ def own_energy(
         validity: [1], positive where the density holds; None: everywhere.
 
     Raises:
-        ValueError: a symbol is neither a stretch nor a parameter, a function has no name in emitted code, a
+        ValueError: a symbol is neither a stretch nor a parameter, a function that no law may have, a
             unit does not fit, or the energy is not stress-free at rest.
     """
     _check_symbols(name, expression, stretches, parameters)
@@ -62,16 +62,15 @@ def own_energy(
 
 
 def check_functions(what: str, expression: sp.Expr) -> None:
-    """That emitted code has a name for each function; an absolute value, the root of a square, has a kink and none.
+    """That there is a name for each function; an absolute value, the root of a square, has a kink and none.
 
     Raises:
         ValueError: one has no name.
     """
     for function in sorted(expression.atoms(Application), key=str):
-        if not isinstance(function, tuple(NUMPY_FUNCTIONS)):
+        if not isinstance(function, tuple(FUNCTIONS)):
             hint = " (the root of a square)" if isinstance(function, sp.Abs) else ""
-            names = ", ".join(sorted(known.__name__ for known in NUMPY_FUNCTIONS))
-            raise ValueError(f"{what} has {function}{hint}; allowed are sqrt, {names}")
+            raise ValueError(f"{what} has {function}{hint}; allowed are sqrt, {', '.join(sorted(FUNCTIONS.values()))}")
 
 
 def _check_symbols(

@@ -32,7 +32,6 @@ _MOST_OPERATIONS = 150  # of an energy: the worst found within it takes 20 s to 
 _DEEPEST_FUNCTIONS = 4
 _MOST_TERMS = 300  # of a formula, multiplied out: a derivation of 1000 terms takes half a minute
 _REST = 1e-12  # of the largest stress: equal in thirty digits, but for rounding of the values
-_IN_EMITTED_CODE = ("spring",)  # with the ending of a spring: spring_alpha is a generalised force there
 
 
 def formula(table: Table, key: str, names: Mapping[str, sp.Expr]) -> sp.Expr:
@@ -55,7 +54,7 @@ def _constant(table: Table, name: str, taken: tuple[str, ...]) -> Constant:
     if not _NAME.fullmatch(name):
         allowed = "up to 30 ASCII letters, digits and _, the first a letter"
         table.refuse(f"the name of a parameter must be {allowed}, got {shown(name)}", name)
-    if name in (*taken, *FUNCTIONS, *_IN_EMITTED_CODE):
+    if name in (*taken, *FUNCTIONS):
         table.refuse(f"{name!r} cannot be the name of a parameter: it has a meaning of its own", name)
     try:
         value, unit = read_with_unit(name, table.values[name])

@@ -1,4 +1,4 @@
-"""Expressions as text: one visitor, for code and for the formulas of docstrings.
+"""Expressions as text: one visitor, for the formulas of docstrings and for code in any language.
 
 The order of terms and factors is SymPy's canonical printing order, so that the text does not depend
 on hashes. Exact numbers stay exact (`8 / 3`), divisions are written as divisions.
@@ -8,10 +8,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from operator import attrgetter
 
 import sympy as sp
+from sympy.core.function import Application
 
 from delagrange.derive.notation.symbols import QUANTITIES, Quantity
+
+_KNOWN = (sp.log, sp.exp, sp.sin, sp.cos, sp.tan, sp.sinh, sp.cosh, sp.tanh)
+FUNCTIONS: Mapping[type, str] = {function: function.__name__ for function in _KNOWN}  # that a law may be made of
 
 _SUM, _PRODUCT, _POWER, _ATOM = range(4)  # binding strength
 
@@ -20,20 +25,26 @@ _SUM, _PRODUCT, _POWER, _ATOM = range(4)  # binding strength
 class ExpressionPrinter:
     """Prints sums, products, powers and named functions.
 
-    `name_of` names a symbol; `functions` maps SymPy function classes to what they are called; `times`
+    `functions` maps SymPy function classes to what they are called; `name_of` names a symbol; `times`
     stands between factors; `power` writes a base raised to a positive integer, `raised` stands between the
-    base and the exponent of any other power, and `root` names the square root.
+    base and the exponent of any other power; `root` names the square root, `least` the lesser of two.
     """
 
-    name_of: Callable[[sp.Symbol], str]
     functions: Mapping[type, str]
+    name_of: Callable[[sp.Symbol], str] = attrgetter("name")
     times: str = " * "
     power: Callable[[str, int], str] = "{}**{}".format
     raised: str = "**"
-    root: str = "np.sqrt"
+    root: str = "sqrt"
+    least: str = "min"
 
     def __call__(self, expression: sp.Expr) -> str:
         return self._visit(expression)[0]
+
+    def unknown(self, expression: sp.Expr) -> list[sp.Expr]:
+        """What it has no name for in an expression."""
+        known = (sp.Min, *self.functions)
+        return sorted((each for each in expression.atoms(Application) if not isinstance(each, known)), key=str)
 
     def terms(self, expression: sp.Expr) -> tuple[str, ...]:
         """The terms of a sum, each with its sign, in printing order; for breaking long lines."""
@@ -108,7 +119,7 @@ class ExpressionPrinter:
 
     def _least(self, arguments: list[sp.Expr]) -> str:
         first, *others = arguments
-        return f"np.minimum({self(first)}, {self._least(others)})" if others else self(first)
+        return f"{self.least}({self(first)}, {self._least(others)})" if others else self(first)
 
 
 def _fraction(expression: sp.Mul) -> tuple[list[sp.Expr], list[sp.Expr]]:
@@ -127,13 +138,6 @@ def _fraction(expression: sp.Mul) -> tuple[list[sp.Expr], list[sp.Expr]]:
     return above, below
 
 
-_NAMED = {function: function.__name__ for function in (sp.sin, sp.cos, sp.tan, sp.sinh, sp.cosh, sp.tanh)}
-
-# What NumPy and compiled code call the functions
-NUMPY_FUNCTIONS: Mapping[type, str] = {sp.log: "np.log", sp.exp: "np.exp"} | {
-    function: f"np.{name}" for function, name in _NAMED.items()
-}
-
 _SUPERSCRIPTS = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
@@ -145,8 +149,8 @@ def text_printer(quantities: tuple[Quantity, ...]) -> ExpressionPrinter:
     """Formulas for people, in the notation of the quantities: 8 H L² μ^α / 3."""
     notation = {quantity.symbol: quantity.text for quantity in quantities}
     return ExpressionPrinter(
+        {**FUNCTIONS, sp.log: "ln"},
         notation.__getitem__,
-        {sp.log: "ln", sp.exp: "exp"} | _NAMED,
         times=" ",
         power=_raised,
         raised="^",

@@ -78,12 +78,12 @@ def _stale(walked: Derivation, folder: Path) -> bool:
 
 def _write(walked: Derivation, folder: Path, departed: bool) -> None:
     """Write the modules, unless their equations are not those that were last looked at."""
-    from delagrange.derive import pipeline
+    from delagrange.derive.emit.write_together import write_together
 
     if departed:
         console.complain("no module written, since a verdict is not the recorded one")
         return
-    pipeline.write(walked.modules, folder)
+    write_together(walked.modules, folder)
     print(f"written: {len(walked.modules)} modules in {folder}")
 
 

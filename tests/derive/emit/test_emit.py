@@ -21,6 +21,7 @@ from delagrange.derive import pipeline
 from delagrange.derive.check.report import as_text
 from delagrange.derive.emit import numpy_module as emit_module
 from delagrange.derive.emit.numpy_module import emit
+from delagrange.derive.emit.write_together import write_together
 from delagrange.derive.equations.lambdified import lambdified
 from delagrange.derive.kernel.kernel import kernel
 from delagrange.derive.membrane.load_cases import EMITTED
@@ -308,7 +309,7 @@ def test_a_checked_in_module_is_what_the_derivation_emits(walked, tmp_path):
     assert [name for name, _ in modules] == ["uniaxial.py", "uniaxial_lanes.py", "uniaxial_variational.py"]
     folder = Path(str(resources.files("delagrange.generated")))
     assert pipeline.stale(modules, folder) == ()
-    pipeline.write(modules, tmp_path)
+    write_together(modules, tmp_path)
     assert (
         hashlib.sha256((tmp_path / "uniaxial.py").read_bytes()).digest()
         == hashlib.sha256((folder / "uniaxial.py").read_bytes()).digest()
@@ -320,4 +321,4 @@ def test_a_checked_in_module_is_what_the_derivation_emits(walked, tmp_path):
 def test_an_output_folder_that_cannot_be_written_is_named(tmp_path):
     (tmp_path / "file").write_text("")
     with pytest.raises(ValueError, match=r"output folder .*file.* cannot be written"):
-        pipeline.write((("a.py", ""),), tmp_path / "file")
+        write_together((("a.py", ""),), tmp_path / "file")

@@ -22,15 +22,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 from tidy import check_tidy
 
-from delagrange.derive.emit.lanes_module import emit_lanes
+from delagrange.derive.emit.lanes_module import emit_lanes, sine_coefficients
 from delagrange.derive.emit.numpy_module import emit
 from delagrange.derive.emit.runge_kutta import dop853, quadrature
-from delagrange.derive.emit.sine import sine_coefficients
-from delagrange.derive.kernel.arranged import operations_of
+from delagrange.derive.kernel.arranged import operations, operations_of
+from delagrange.derive.kernel.compiled_spec import lane_spec
+from delagrange.derive.kernel.constants import Constants
 from delagrange.derive.kernel.kernel import kernel
-from delagrange.derive.kernel.lane_constants import Constants
-from delagrange.derive.kernel.lane_spec import lane_spec
-from delagrange.derive.kernel.operations import operations
 from delagrange.derive.kernel.powers import share_powers
 from delagrange.derive.kernel.reciprocals import denominators, inverse_name, share_division, without_division
 from delagrange.derive.membrane.load_cases import EMITTED
@@ -172,16 +170,16 @@ def test_arranged_equations_are_the_modules_equations(name, equations):
     before = [(entry.name, plain(entry.expression)) for entry in rhs.assignments]
     after = [
         (entry.name, plain(entry.expression))
-        for entry in (arranged.volume, *arranged.constants, *arranged.rates.assignments)
+        for entry in (arranged.volume, *arranged.constants, *arranged.motion.assignments)
     ]
     symbols = [sp.Symbol(entry.name) for entry in (*spec.state, *spec.inputs, *spec.parameters)]
     values = {symbol: sp.Rational(7 + 3 * place, 5 + 2 * place) for place, symbol in enumerate(symbols)}
-    for ours, theirs in zip(arranged.rates.outputs, rhs.outputs, strict=True):
+    for ours, theirs in zip(arranged.rates, rhs.outputs, strict=True):
         found, expected = (
             exact_value(pairs, output, values) for pairs, output in ((after, ours), (before, theirs))
         )
         assert found == expected
-    divisions = [e for e in arranged.rates.assignments if 1 in {-p.exp for p in e.expression.atoms(sp.Pow)}]
+    divisions = [e for e in arranged.motion.assignments if 1 in {-p.exp for p in e.expression.atoms(sp.Pow)}]
     assert len(divisions) == 1
     assert arranged.operations < operations((*(e.expression for e in rhs.assignments), *rhs.outputs))
 
@@ -453,17 +451,17 @@ def gent_spec():
 
 
 @cache
-def gent_lanes(limits=True):
-    """Its kernel, or that of the same membrane where nobody says how far a spring can be stretched."""
-    kept = tuple(function for function in gent_spec().functions if limits or function.name != "validity")
-    return lane_spec(replace(gent_spec(), functions=kept))
+def without_limits():
+    """The same membrane where nobody says how far a spring can be stretched."""
+    kept = tuple(function for function in gent_spec().functions if function.name != "validity")
+    return replace(gent_spec(), functions=kept)
 
 
 @pytest.fixture(scope="module")
 def gent(tmp_path_factory):
     """Module and kernel of it, imported and not compiled."""
     folder = tmp_path_factory.mktemp("gent")
-    texts = {"gent": emit(gent_spec()), "gent_lanes": emit_lanes(gent_lanes())}
+    texts = {"gent": emit(gent_spec()), "gent_lanes": emit_lanes(gent_spec())}
     return tuple(imported(folder / f"{name}.py", text) for name, text in texts.items())
 
 
@@ -503,10 +501,10 @@ def gent_states(model, lanes, rng):
 
 def test_limits_are_looked_at_once_a_step_and_not_in_its_stages():
     """All that evaluates, integrates and interpolates is, to the letter, what it would be without them."""
-    bound, free = gent_lanes(), gent_lanes(limits=False)
-    assert bound.operations == free.operations and bound.rates == free.rates
+    bound, free = lane_spec(gent_spec()), lane_spec(without_limits())
+    assert bound.operations == free.operations and bound.motion == free.motion
     assert bound.constants[: len(free.constants)] == free.constants
-    with_limits, without = functions_in(emit_lanes(bound)), functions_in(emit_lanes(free))
+    with_limits, without = functions_in(emit_lanes(gent_spec())), functions_in(emit_lanes(without_limits()))
     changed = {name for name, text in with_limits.items() if text != without.get(name)}
     assert changed == {
         "_validity", "constants", "_marks", "_note_ends", "_kept", "_kind_of_loss", "_look_into", "integrate",
@@ -520,11 +518,10 @@ def test_limits_are_looked_at_once_a_step_and_not_in_its_stages():
 
 
 def test_the_kernel_says_what_its_limits_cost():
-    spec = gent_lanes()
-    text = emit_lanes(spec)
+    spec, text = lane_spec(gent_spec()), emit_lanes(gent_spec())
     assert f"At the end of every step, {operations_of(spec.validity)} more say" in text
     assert operations_of(spec.validity) < spec.operations / 2
-    assert "LOCKED" not in emit_lanes(gent_lanes(limits=False))
+    assert "LOCKED" not in emit_lanes(without_limits())
 
 
 def test_the_kernel_counts_losses_as_the_program_does(gent):

@@ -13,13 +13,12 @@ import numpy as np
 import pytest
 import sympy as sp
 from conftest import PAPER_VALUES
-from first_order import duffing, first_order, lorenz, written
+from first_order import duffing, lorenz, written
 
-from delagrange.derive.emit.variational_module import emit_variational
+from delagrange.derive.kernel.arranged import operations
+from delagrange.derive.kernel.compiled_spec import joined, variational_spec
 from delagrange.derive.kernel.kernel import kernel
-from delagrange.derive.kernel.operations import operations
 from delagrange.derive.kernel.spec import Assignment, KernelFunction
-from delagrange.derive.kernel.variational_spec import joined, variational_spec
 from delagrange.derive.membrane.load_cases import EMITTED
 from delagrange.model.kernels import compile_tangents
 
@@ -183,14 +182,6 @@ def test_a_system_that_is_no_membrane_is_emitted(system, tmp_path, monkeypatch, 
     np.testing.assert_allclose(moving, slopes @ tangent, rtol=1e-13, atol=1e-12)
     assert trace == pytest.approx(np.trace(slopes), rel=1e-13)
     assert spec.coordinate_count == compiled.COORDINATE_COUNT
-
-
-@pytest.mark.parametrize("name", ["vector", "max", "lambda", "a b"])
-def test_a_name_that_the_module_needs_is_refused(name):
-    symbol = sp.Symbol(name)
-    spec = variational_spec(first_order("system", {name: -symbol}, (1,)))
-    with pytest.raises(ValueError, match=f"system: no quantity of a compiled kernel may be called '{name}'"):
-        emit_variational(spec)
 
 
 # --- text --------------------------------------------------------------------------------------------

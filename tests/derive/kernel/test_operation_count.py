@@ -9,7 +9,7 @@ from emitted_once import executed
 from hand_written import constants, count, gent_uniaxial, neo_hookean_uniaxial, yeoh_equal_biaxial
 
 from delagrange.derive.emit.numpy_module import emit
-from delagrange.derive.kernel.lane_spec import lane_spec
+from delagrange.derive.kernel.compiled_spec import lane_spec
 from delagrange.derive.membrane.description import EQUAL_BIAXIAL, UNIAXIAL, Attachment, Description, Load
 from delagrange.derive.membrane.materials import ALPHA, MATERIALS
 from delagrange.derive.notation import more_symbols as m

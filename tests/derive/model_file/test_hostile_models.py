@@ -135,7 +135,14 @@ def test_no_parameter_takes_a_name_of_emitted_code(name):
     """Else the code would compute with a wrong number, without a word."""
     mine = quantity("zeta", name, "ζ", r"\zeta", "Pa", "a stiffness of mine")
     with pytest.raises(ValueError, match="the name of something else in emitted code"):
-        description_spec(replace(plain(UNIAXIAL), equilibrium_spring=neo_hookean(mine)))
+        derive_description(replace(plain(UNIAXIAL), equilibrium_spring=neo_hookean(mine)))
+
+
+def test_a_constant_of_a_user_may_be_called_spring(tmp_path):
+    """Nothing in emitted code is: `spring_alpha` is free beside `spring_alpha_force`."""
+    path = tmp_path / "my.toml"
+    path.write_text(own("spring/2*(I_1 - 3)", 'spring = "18 kPa"'), encoding="utf-8")
+    assert "spring_alpha" in dict(derive_description(describe(read_model_file(path))))["small.py"]
 
 
 def test_a_function_without_a_name_in_code_is_refused():

@@ -1,8 +1,7 @@
-"""From the description of a module to that of a kernel that carries a state and its tangent along.
+"""From the description of a module to that of a compiled kernel, arranged for speed.
 
-Nothing is differentiated here: the Jacobians by the state and by the inputs are those of the module. The
-rates and both matrices become one function, so that what they share is computed once, the accelerations
-among it.
+Nothing is differentiated here: the Jacobians by the state and by the inputs are those of the module. What a
+kernel computes together becomes one function, so that what its parts share is computed once.
 """
 
 from __future__ import annotations
@@ -22,18 +21,20 @@ from delagrange.derive.kernel.spec import Assignment, KernelFunction, KernelSpec
 
 
 @dataclass(frozen=True)
-class VariationalSpec:
-    """A kernel for one trajectory with its variational equations, whatever language it is written in."""
+class CompiledSpec:
+    """A kernel, whatever language it is written in."""
 
     model: KernelSpec
     volume: Assignment | None  # of the membrane, in terms of the parameters, where constants need it
     constants: tuple[Assignment, ...]  # what does not move, in terms of volume and parameters
-    motion: KernelFunction  # rates, then the Jacobian by the state, then that by the inputs, row by row
+    motion: KernelFunction  # rates, then row by row the Jacobians that the kernel has, by state and by inputs
     principal_stretches: KernelFunction
-    validity: (
-        KernelFunction | None
-    )  # what is left to the limits of the energies [1]; None where there are none
-    operations: int  # of one evaluation of `motion`, beside the tangent
+    validity: KernelFunction | None  # what is left to the limits of the energies [1]; None: they have none
+
+    @property
+    def operations(self) -> int:
+        """Of one evaluation of `motion`."""
+        return operations_of(self.motion)
 
     @property
     def rates(self) -> tuple[sp.Expr, ...]:
@@ -53,18 +54,25 @@ class VariationalSpec:
         return sp.Matrix(size, inputs, list(self.motion.outputs[size + size * size :]))
 
 
-def variational_spec(spec: KernelSpec) -> VariationalSpec:
-    """Describe the kernel of a model's motion and variational equations."""
+def lane_spec(spec: KernelSpec) -> CompiledSpec:
+    """Describe the kernel of many trajectories side by side."""
+    return _compiled(spec, "rhs")
+
+
+def variational_spec(spec: KernelSpec) -> CompiledSpec:
+    """Describe the kernel of one trajectory with its variational equations."""
+    return _compiled(spec, "rhs", "jacobian", "input_jacobian")
+
+
+def _compiled(spec: KernelSpec, *parts: str) -> CompiledSpec:
     functions = {function.name: function for function in spec.functions}
     constants = constants_for(spec)
-    parts = [functions[name] for name in ("rhs", "jacobian", "input_jacobian")]
-    motion = arranged(joined("motion", parts), spec, constants)
+    motion = arranged(joined("motion", [functions[name] for name in parts]), spec, constants)
     principal = arranged(functions["principal_stretches"], spec, constants)
     limit = functions.get("validity")
     validity = None if limit is None else arranged(limit, spec, constants)
-    volume = volume_of(functions["rhs"])
-    return VariationalSpec(
-        spec, volume, constants.assignments(), motion, principal, validity, operations_of(motion)
+    return CompiledSpec(
+        spec, volume_of(functions["rhs"]), constants.assignments(), motion, principal, validity
     )
 
 

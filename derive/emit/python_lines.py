@@ -1,12 +1,25 @@
-"""Statements of Python broken into lines, as a person would break them."""
+"""Statements of Python with NumPy, broken into lines as a person would break them."""
 
 from __future__ import annotations
 
+from keyword import kwlist
+
 import sympy as sp
 
-from delagrange.derive.notation.printer import ExpressionPrinter
+from delagrange.derive.kernel.spec import Assignment
+from delagrange.derive.notation.printer import FUNCTIONS, ExpressionPrinter
 
+NUMPY = ExpressionPrinter(
+    {function: f"np.{name}" for function, name in FUNCTIONS.items()}, root="np.sqrt", least="np.minimum"
+)
+PYTHON_WORDS = frozenset({*kwlist, "np", "min", "max", "range"})  # that no quantity may be called in its code
 WIDTH = 110
+
+
+def assignment_lines(assignment: Assignment, indent: str = "    ") -> list[str]:
+    """`name = expression`, with its comment before it."""
+    comment = [f"{indent}# {assignment.comment}"] if assignment.comment else []
+    return comment + broken(f"{assignment.name} = ", assignment.expression, NUMPY, indent)
 
 
 def _folded(text: str, indent: str, times: str) -> list[str]:
