@@ -1,7 +1,8 @@
 """The explicit pair DOP853 as data for an emitted integrator.
 
 Hairer, Nørsett & Wanner (1993), Solving Ordinary Differential Equations I, Sec. II.5 and II.6; the
-coefficients are those that `scipy.integrate` publishes with its solver class.
+coefficients are those that `scipy.integrate` publishes with its solver class. The NumPy engine reads them there as
+well (`delagrange.engines.tableau`), with its interpolant multiplied out; neither side may import the other.
 """
 
 from __future__ import annotations
