@@ -199,7 +199,7 @@ def integrate(
 def decorators():
     """What a real kernel is compiled by, as it stands in its text."""
     text = (GENERATED / "equal_biaxial_lanes.py").read_text(encoding="utf-8")
-    wanted = {"_OPTIONS", "_compiled", "_cached"}
+    wanted = {"_OPTIONS", "_CONTRACTED", "_compiled", "_cached"}
     yield "import numba"
     yield "STATE_COUNT, INPUT_COUNT, TABLE_ROWS, RESULT_ROWS = 3, 2, 5, 7"
     for node in ast.parse(text).body:
