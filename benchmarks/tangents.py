@@ -79,8 +79,9 @@ def _points(contestants: dict[str, Contestant], reference: np.ndarray) -> dict[s
 
 
 def _ours(model: str, engine: str) -> Tangent:
-    from delagrange.engines.flow import FlowPath, typical_sizes
+    from delagrange.engines.flow import FlowPath
     from delagrange.engines.flows import resolve_flow
+    from delagrange.problem.coordinate_size import typical_sizes
     from delagrange.problem.dashpots import given_state
 
     problem = _problem(model)
@@ -113,7 +114,7 @@ def _heyoka(model: str) -> Tangent:
     """By its own derivatives of the same rates, the inelastic stretches put in as numbers. Time in 0.1 ms."""
     import heyoka
 
-    from delagrange.engines.flow import typical_sizes
+    from delagrange.problem.coordinate_size import typical_sizes
     from delagrange.problem.dashpots import given_state
 
     problem = _problem(model)

@@ -12,11 +12,12 @@ from hypothesis import strategies as st
 
 import delagrange as dl
 from delagrange.analysis.steady.shooting import Shooting
-from delagrange.engines.flow import FlowPath, typical_sizes
+from delagrange.engines.flow import FlowPath
 from delagrange.engines.flow_compiled import flow_compiled
 from delagrange.engines.flow_scipy import flow_by_scipy
 from delagrange.equilibrium.continuation import Lost
 from delagrange.model.kernels import VARIATIONAL, kernel_name, load_kernel
+from delagrange.problem.coordinate_size import typical_sizes
 from delagrange.problem.problem import make_problem
 from delagrange.problem.status import STATUS
 

@@ -30,13 +30,13 @@ from delagrange.engines.flow import (
     Source,
     drive_numbers,
     drive_slope,
-    typical_sizes,
 )
 from delagrange.engines.flow_compiled import flow_compiled
 from delagrange.engines.flow_scipy import flow_by_scipy, orthonormalised
 from delagrange.engines.flows import resolve_flow
 from delagrange.model import kernels
 from delagrange.problem import status as loss
+from delagrange.problem.coordinate_size import typical_sizes
 from delagrange.problem.dashpots import frozen, given_state
 from delagrange.problem.problem import Problem, make_problem
 

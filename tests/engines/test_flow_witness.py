@@ -5,8 +5,9 @@ import numpy as np
 import pytest
 
 import delagrange as dl
-from delagrange.engines.flow import AMPLITUDE, BIAS, FlowPath, Source, typical_sizes
+from delagrange.engines.flow import AMPLITUDE, BIAS, FlowPath, Source
 from delagrange.engines.flows import resolve_flow
+from delagrange.problem.coordinate_size import typical_sizes
 from delagrange.problem.dashpots import frozen, given_state
 from delagrange.problem.problem import make_problem
 

@@ -79,11 +79,11 @@ def test_a_sweep_has_the_current_of_its_sine(leaky):
     [
         (
             {"field_amplitude": 1e6},
-            "field_amplitude given as 1000000, but leaky has no input nominal_electric_field",
+            "field_amplitude given as 1000000, but the electrical input of leaky is nominal_current_density",
         ),
         (
             {"charge_bias": 1e-4, "current_amplitude": 0.1},
-            "charge_bias given as 0.0001, but leaky has no input",
+            "charge_bias given as 0.0001, but the electrical input of leaky is nominal_current_density",
         ),
         ({}, "current_amplitude must be a number in A/m\\^2, got none"),
         ({"current_bias": 0.1}, "current_amplitude must be a number in A/m\\^2, got none"),

@@ -160,7 +160,7 @@ def test_bad_input_is_refused_in_one_line(membrane, case):
     ("inputs", "says"),
     [
         ({"force_1": dl.Constant(1.0)}, "inputs force_1 must be a number"),
-        ({"field": 1.0}, "field is what varies here"),
+        ({"field": 1.0}, "field is given as 0 and in inputs as well; give one"),
     ],
 )
 def test_a_membrane_at_rest_takes_numbers_alone(membrane, inputs, says):

@@ -25,11 +25,12 @@ from scipy.integrate import solve_ivp
 
 import delagrange as dl
 from delagrange.cli import main
-from delagrange.engines.flow import AMPLITUDE, FREQUENCY, FlowPath, Source, typical_sizes
+from delagrange.engines.flow import AMPLITUDE, FREQUENCY, FlowPath, Source
 from delagrange.engines.flow_scipy import flow_by_scipy
 from delagrange.engines.flows import resolve_flow
 from delagrange.figures.equilibrium_figure import draw_equilibria
 from delagrange.figures.modes_figure import draw_modes
+from delagrange.problem.coordinate_size import typical_sizes
 from delagrange.problem.dashpots import is_damped
 from delagrange.problem.problem import Problem, make_problem
 
@@ -352,19 +353,19 @@ def test_its_kind_of_motion_and_its_exponents(damped):
 # --- what is refused -----------------------------------------------------------------------------------
 
 REFUSED = {
-    "a field": (dl.equilibria, {"field": 1e6}, "under charge control and has no field; give inputs="),
-    "a voltage": (dl.equilibria, {"voltage": 1e3}, "under charge control and has no field"),
+    "a field": (dl.equilibria, {"field": 1e6}, "input of charged is nominal_charge_density .*; give inputs="),
+    "a voltage": (dl.equilibria, {"voltage": 1e3}, "but the electrical input of charged is nominal_charge_density"),
     "nothing": (dl.equilibria, {}, r"inputs nominal_charge_density \[C/m\^2\] must be given, got none"),
     "not increasing": (dl.equilibria, {"inputs": {CHARGE: [1e-3, 0.0]}}, "nominal_charge_density must"),
     "a drive": (dl.modes, {"inputs": {CHARGE: dl.Sine(1.0, 2.0)}}, "must be a number or an array of them here"),
-    "a field to modes": (dl.modes, {"field": [1e6]}, "under charge control and has no field"),
+    "a field to modes": (dl.modes, {"field": [1e6]}, "but the electrical input of charged is nominal_charge_density"),
     "what varies": (dl.pull_in, {"inputs": {CHARGE: 1e-3}}, "nominal_charge_density is what varies here"),
     "an amplitude of the field": (
         dl.steady_response,
         {"frequency": (1.0, 2.0), "field_amplitude": 1e6},
         "field_amplitude given as 1000000, but the electrical input of charged is nominal_charge_density",
     ),
-    "no amplitude": (dl.steady_response, {"frequency": (1.0, 2.0)}, r"charge_amplitude \[C/m\^2\] must be given"),
+    "no amplitude": (dl.steady_response, {"frequency": (1.0, 2.0)}, r"charge_amplitude must be a number in C/m\^2"),
     "a negative amplitude": (
         dl.stepped_sweep,
         {"frequency": [1.0], "charge_amplitude": -1e-3},
@@ -390,15 +391,13 @@ def test_a_charge_is_refused_where_the_voltage_drives():
         dl.equilibria("equal_biaxial", field=0.0, inputs={CHARGE: 1e-3})
 
 
-def test_a_current_is_refused_by_what_looks_for_rest(charged):
+def test_a_current_that_feeds_no_charge_of_the_state_is_refused(charged):
     fed = ModuleType("fed")
     fed.__dict__.update({name: value for name, value in vars(charged).items() if not name.startswith("__")})
     fed.MODEL = "fed"
     fed.INPUTS = (charged.INPUTS[0], charged.INPUTS[1]._replace(name="nominal_current_density", unit="A/m^2"))
-    for analysis in (dl.equilibria, dl.pull_in, dl.modes):
-        with pytest.raises(
-            ValueError, match=r"the model fed has no input .*; under a current its charge"
-        ) as refusal:
+    for analysis in (dl.rest_state, dl.pull_in, dl.modes):
+        with pytest.raises(ValueError, match="the model fed has a current, and no charge in its state") as refusal:
             analysis(fed)
         assert "\n" not in str(refusal.value)
 

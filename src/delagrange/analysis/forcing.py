@@ -8,7 +8,8 @@ from math import gcd, lcm
 
 import numpy as np
 
-from delagrange.engines.flow import AMPLITUDE, BIAS, FREQUENCY, drive_numbers, typical_sizes
+from delagrange.engines.flow import AMPLITUDE, BIAS, FREQUENCY, drive_numbers
+from delagrange.problem.coordinate_size import typical_sizes
 from delagrange.problem.problem import Problem
 
 _SAMPLES = 8  # in a forcing period, and in a period of the fastest small vibration

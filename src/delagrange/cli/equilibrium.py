@@ -12,7 +12,7 @@ from delagrange.cli.membrane import arguments, loaded, refuse_many, state_given
 from delagrange.cli.options import Given
 from delagrange.cli.results import interruptible, tell_written, write_plot
 from delagrange.common.files import write_dataset
-from delagrange.drives.inputs import CHARGE_DENSITY, ELECTRIC_FIELD, ELECTRICAL, ElectricalInput
+from delagrange.drives.inputs import ELECTRIC_FIELD, ELECTRICAL, ElectricalInput, electrical_input
 
 if TYPE_CHECKING:
     import xarray as xr
@@ -59,7 +59,7 @@ def equilibrium(given: Given) -> None:
     module = loaded(given)
     taken = arguments(given, module, state_given(given, module))
     taken |= given.some("breakdown_field", "breakdown_exponent", "smallest_tension")
-    refuse_many(taken, module, but=None if mapped else CHARGE_DENSITY.name)
+    refuse_many(taken, module, but=None if mapped else electrical_input(module).name)
     with interruptible("the equilibria were not finished, nothing was written"):
         found = _critical_map(module, given, taken) if mapped else _equilibria(module, given, taken)
         if given.out is not None:
@@ -93,7 +93,7 @@ def _equilibria(module: ModuleType, given: Given, taken: dict[str, Any]) -> xr.D
 
     load = {"dashpots": _DASHPOTS} | given.some("force", "dashpots")
     varied = given.some("field", "voltage")
-    if not varied and CHARGE_DENSITY.name not in (taken["inputs"] or {}):
+    if not varied and electrical_input(module).name not in (taken["inputs"] or {}):
         varied = _default_values(module, load | taken)
     return equilibria(module, **(load | taken | varied))
 

@@ -105,7 +105,7 @@ _FIELDS = (
            {NUMBER: "simulate classify"}),
     Option("frequency", "Hz", _FIELD, "Frequency of the sine field, charge or current, in Hz; increasing",
            {NUMBERS: "sweep"}, required=True),
-    Option("frequency", "Hz", _FIELD, "Frequency of the sine field or charge, in Hz", {SPAN: "response"},
+    Option("frequency", "Hz", _FIELD, "Frequency of the sine field, charge or current, in Hz", {SPAN: "response"},
            required=True),
     Option("field_bias", "V/m", _FIELD, "Bias of the sine field, in V/m",
            {NUMBER: "simulate classify", NUMBERS: "sweep", SPAN: "response"}, default_text="0 V/m"),
@@ -140,7 +140,7 @@ def _sine_instead(electrical, commands: dict) -> tuple[Option, ...]:
 
 _CHARGES = (
     *_sine_instead(CHARGE_DENSITY, {NUMBER: "classify", NUMBERS: "sweep", SPAN: "response"}),
-    *_sine_instead(CURRENT_DENSITY, {NUMBERS: "sweep"}),
+    *_sine_instead(CURRENT_DENSITY, {NUMBERS: "sweep", SPAN: "response"}),
 )
 
 _STATE = "as stretch=1.1 (a pure number) or stretch_rate=2 (1/s)"

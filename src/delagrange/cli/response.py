@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 Load = dict[str, float | Span]
 
 _LOAD = ("force", "field_amplitude", "field_bias", "frequency")
-_CHARGE = ("charge_amplitude", "charge_bias")  # of the load, where they are given
+_INSTEAD = ("charge_amplitude", "charge_bias", "current_amplitude", "current_bias")  # where they are given
 _SWEEP_STEPS = 60
 
 
@@ -33,8 +33,8 @@ def response(given: Given) -> None:
     periodic motions, stable or not, along the one quantity of the load that is
     given as START:STOP, with Floquet multipliers and bifurcations; the picture
     shows the transient amplitude beside them. Without bias the field, which
-    enters squared, forces at twice its frequency. Under charge control the charge
-    stands for the field.
+    enters squared, forces at twice its frequency. The charge or current of a
+    model that is driven by one stands for the field.
 
     [bold]Examples[/]
 
@@ -44,7 +44,7 @@ def response(given: Given) -> None:
           --frequency 350:480 --relaxation-time 0.01 --steady --dashpots relaxed \\
           --sweeps --plot damped.png
     """
-    load = given.some(*_LOAD, *_CHARGE)
+    load = given.some(*_LOAD, *_INSTEAD)
     varied = _varied(load)
     _refuse_idle(given, varied)
     module = loaded(given)
@@ -77,7 +77,7 @@ def _varied(load: Load) -> str:
     """
     spans = [name for name, value in load.items() if isinstance(value, Span)]
     if len(spans) != 1:
-        names = [*_LOAD, *(name for name in _CHARGE if name in load)]
+        names = [*_LOAD, *(name for name in _INSTEAD if name in load)]
         raise ValueError(
             f"exactly one of {', '.join(map(flag_of, names))} must be a range START:STOP, got {len(spans)}"
         )

@@ -67,15 +67,17 @@ def instance(name: str, value: object, kind: type) -> object:
     return value
 
 
-def increasing(name: str, values: object, unit: str) -> np.ndarray:
-    """`values` as a one-dimensional array, not empty, finite, strictly increasing."""
+def increasing(name: str, values: object, unit: str, or_decreasing: bool = False) -> np.ndarray:
+    """`values` as a one-dimensional array, not empty, finite, strictly increasing or, where it may, decreasing."""
     array = np.atleast_1d(finite(name, values, unit))
     if array.ndim != 1 or array.size == 0:
         raise ValueError(
             f"{name} must be a one-dimensional grid of at least one value in {unit}, got {shown(values)}"
         )
-    if np.any(np.diff(array) <= 0):
-        raise ValueError(f"{name} must be strictly increasing, got {with_unit(values, unit)}")
+    steps = np.diff(array)
+    if not (np.all(steps > 0) or (or_decreasing and np.all(steps < 0))):
+        either = " or strictly decreasing" if or_decreasing else ""
+        raise ValueError(f"{name} must be strictly increasing{either}, got {with_unit(values, unit)}")
     return array
 
 

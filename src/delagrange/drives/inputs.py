@@ -40,6 +40,16 @@ class ElectricalInput:
         return f"{self.stem}_bias"
 
     @property
+    def phase(self) -> str:
+        """Name of the phase of its sine."""
+        return f"{self.stem}_phase"
+
+    @property
+    def squared(self) -> str:
+        """Name of what enters the energy squared: itself, or the charge that a current feeds."""
+        return CHARGE if self.stem == "current" else self.name
+
+    @property
     def text(self) -> str:
         """In sentences: `field`, or `nominal charge density`."""
         return self.argument.replace("_", " ")
@@ -50,25 +60,98 @@ CHARGE_DENSITY = ElectricalInput(CHARGE, CHARGE, "charge", "C/m^2", "nominal cha
 CURRENT_DENSITY = ElectricalInput(
     "nominal_current_density", "nominal_current_density", "current", "A/m^2", "nominal current density", "i"
 )  # of a membrane whose charge is part of its state
-ELECTRICAL = {each.name: each for each in (ELECTRIC_FIELD, CHARGE_DENSITY)}
+ELECTRICAL = {each.name: each for each in (ELECTRIC_FIELD, CHARGE_DENSITY, CURRENT_DENSITY)}
+
+
+def find_electrical(model: ModuleType) -> ElectricalInput | None:
+    """What drives the electrodes of a model: a field, a charge or a current; None where nothing does."""
+    return next((each for name, each in ELECTRICAL.items() if has_input(model, name)), None)
 
 
 def electrical_input(model: ModuleType) -> ElectricalInput:
-    """The electrical input of a model: its field under voltage control, its charge under charge control.
+    """What drives the electrodes of a model.
 
     Raises:
-        ValueError: it has neither.
+        ValueError: nothing does.
     """
-    names = [entry.name for entry in model.INPUTS]
-    for name, electrical in ELECTRICAL.items():
-        if name in names:
-            return electrical
-    wanted = " or ".join(f"{each.name} [{each.unit}]" for each in ELECTRICAL.values())
-    fed = CURRENT_DENSITY.name in names
-    why = "; under a current its charge is part of the state, and cannot be given" if fed else ""
-    raise ValueError(
-        f"the model {model.MODEL} has no input {wanted}; it has {', '.join(names) or 'none'}{why}"
-    )
+    electrical = find_electrical(model)
+    if electrical is None:
+        wanted = " or ".join(f"{each.name} [{each.unit}]" for each in ELECTRICAL.values())
+        names = ", ".join(entry.name for entry in model.INPUTS) or "none"
+        raise ValueError(f"the model {model.MODEL} has no input {wanted}; it has {names}")
+    return electrical
+
+
+def refuse_other_electrical(model: ModuleType, given: Mapping[str, object], instead: str) -> None:
+    """Refuse numbers, but zero, of an electrical input that a model does not have.
+
+    given: by what a user calls them; None: left out
+
+    Raises:
+        ValueError: naming the number, and what to give `instead`.
+    """
+    electrical = find_electrical(model)
+    for name, value in given.items():
+        if value is not None and not is_zero(value):
+            if electrical is None:
+                raise ValueError(f"{name} given as {shown(value)}, but {model.MODEL} has no electrical input")
+            raise ValueError(
+                f"{name} given as {shown(value)}, but the electrical input of {model.MODEL} is "
+                f"{electrical.name} [{electrical.unit}]; give {instead}"
+            )
+
+
+@dataclass(frozen=True)
+class GivenElectrical:
+    """The electrical input of a model, and what is given of it."""
+
+    electrical: ElectricalInput
+    name: str  # by which it is given
+    values: object  # None: not given
+
+
+def separate_electrical(
+    model: ModuleType, inputs: Inputs | None, argument: str, given: object
+) -> tuple[GivenElectrical, dict[str, Values]]:
+    """What is given of the electrical input of a model, and the values of the other inputs given by name.
+
+    given: values of the field under an `argument` of their own; None: left out
+
+    Raises:
+        ValueError: values of a field to a model that has none, values given twice, drives, or as `named_inputs`.
+    """
+    electrical, others = electrical_input(model), named_inputs(model, inputs)
+    if electrical is not ELECTRIC_FIELD:
+        by_name = f'inputs={{"{electrical.name}": values}} (--input on the command line)'
+        refuse_other_electrical(model, {argument: given}, by_name)
+        given = None
+    for name, value in others.items():
+        if isinstance(value, Drive):
+            raise ValueError(f"inputs {name} must be a number or an array of them here, got {value}")
+    if electrical.name not in others:
+        argument = argument if electrical is ELECTRIC_FIELD else f"inputs {electrical.name}"
+        return GivenElectrical(electrical, argument, given), others
+    if given is not None:
+        raise given_twice(argument, given)
+    return GivenElectrical(electrical, f"inputs {electrical.name}", others.pop(electrical.name)), others
+
+
+def refuse_searched(model: ModuleType, inputs: Inputs | None) -> ElectricalInput:
+    """The electrical input of a model, which an analysis varies by itself, and so does not take by name.
+
+    Raises:
+        ValueError: it is given; the model has none; or as `named_inputs`.
+    """
+    electrical = electrical_input(model)
+    if electrical.name in named_inputs(model, inputs):
+        raise ValueError(f"{electrical.argument} is what varies here, and is not given by inputs")
+    return electrical
+
+
+def given_twice(argument: str, value: object) -> ValueError:
+    """What to raise where an input is given by an argument of its own and among the inputs by name."""
+    said = value if isinstance(value, Drive) else shown(value)
+    return ValueError(f"{argument} is given as {said} and in inputs as well; give one")
 
 
 def input_name(name: str) -> str:
@@ -93,8 +176,8 @@ def drives_of(
     drives = {FORCE: as_drive("force", force, "N"), FIELD: as_drive("field", field, "V/m")}
     _refuse_unused(model, drives)
     for name, given in named_inputs(model, inputs).items():
-        if name in drives and not _is_zero(drives[name]):
-            raise ValueError(f"{input_name(name)} is given as {drives[name]} and in inputs as well; give one")
+        if name in drives and not is_zero(drives[name]):
+            raise given_twice(input_name(name), drives[name])
         drives[name] = as_drive(f"inputs {name}", given, _units(model)[name])
     return tuple(drives.get(entry.name, Constant(0.0)) for entry in model.INPUTS)
 
@@ -147,22 +230,20 @@ def _refuse_unused(model: ModuleType, drives: Mapping[str, Drive]) -> None:
     others = [name for name in known if name not in drives]
     hint = f"; give {', '.join(others)} by inputs={{...}} (--input on the command line)" if others else ""
     for name, drive in drives.items():
-        if name not in known and not _is_zero(drive):
+        if name not in known and not is_zero(drive):
             raise ValueError(
                 f"{input_name(name)} given as {drive}, but {model.MODEL} has no such input; "
                 f"it has {', '.join(map(input_name, known))}{hint}"
             )
 
 
-def is_zero_number(value: object) -> bool:
-    """Whether a value is the single number zero."""
-    return np.ndim(value) == 0 and value == 0
-
-
-def _is_zero(drive: Drive) -> bool:
-    match drive:
+def is_zero(given: object) -> bool:
+    """Whether what is given for an input is the number zero, or a drive that is so at all times."""
+    match given:
         case Constant():
-            return bool(np.all(np.asarray(drive.value) == 0))
+            return bool(np.all(np.asarray(given.value) == 0))
         case Sine():
-            return bool(np.all(np.asarray(drive.amplitude) == 0) and np.all(np.asarray(drive.bias) == 0))
-    return False
+            return bool(np.all(np.asarray(given.amplitude) == 0) and np.all(np.asarray(given.bias) == 0))
+        case Drive():
+            return False
+    return np.ndim(given) == 0 and given == 0

@@ -13,15 +13,12 @@ import numpy as np
 
 from delagrange.common import checks
 from delagrange.drives.drive import Constant, Drive, Sine, Step
-from delagrange.drives.inputs import CHARGE_DENSITY
+from delagrange.drives.inputs import input_name
 from delagrange.drives.phase import fraction_of_turns
-from delagrange.model.variables import is_stretch
-from delagrange.problem.coordinate_size import straining_change
-from delagrange.problem.problem import Problem, input_name
+from delagrange.problem.problem import Problem
 from delagrange.problem.status import Limits
 
 BIAS, AMPLITUDE, FREQUENCY, PHASE = range(4)  # columns of the numbers of a drive
-_CHARGE_UNIT = CHARGE_DENSITY.unit
 
 
 class Source(NamedTuple):
@@ -164,43 +161,3 @@ def drive_slope_bound(numbers: np.ndarray, number: int, time: float) -> float:
     """The largest size of `drive_slope` up to `time` [s]."""
     amplitude = abs(float(numbers[AMPLITUDE]))
     return (1.0, 1.0, 2 * np.pi * abs(time) * amplitude, amplitude)[number]
-
-
-def typical_sizes(problem: Problem) -> np.ndarray:
-    """(n_state,), each in its unit: of what size the state variables are, were a stretch to change by one.
-
-    1 for stretches, and the change that strains the membrane by one half or more for a coordinate that is none; for
-    their rates that times the angular frequency of the fastest small vibration [1/s]; for a charge density that is
-    part of the state the one whose attraction would hold such a change [C/m^2]. All that is about the reference
-    state, under the loads at t = 0.
-    """
-    model = problem.model
-    reference = np.asarray(model.reference_state(problem.parameters), dtype=float)
-    count = model.COORDINATE_COUNT
-    slopes = problem.jacobian(0.0, reference)[count : 2 * count, :count]
-    fastest = np.sqrt(np.max(np.abs(np.linalg.eigvals(slopes)), initial=0.0))
-    sizes = np.ones(len(model.STATE))
-    for place, entry in enumerate(model.STATE[:count]):
-        sizes[place] = 1.0 if is_stretch(entry) else straining_change(problem, reference, place)
-    sizes[count : 2 * count] = sizes[:count] * (fastest if fastest > 0 else 1.0)
-    for place, entry in enumerate(model.STATE):
-        if entry.unit == _CHARGE_UNIT:
-            sizes[place] = _straining_charge(problem, reference, place, fastest, sizes[:count])
-    return sizes
-
-
-def _straining_charge(
-    problem: Problem, reference: np.ndarray, place: int, fastest: float, sizes: np.ndarray
-) -> float:
-    """Charge density D [C/m^2] whose acceleration is that of a spring strained by one; 1 if none is.
-
-    sizes: of the coordinates; in them, such a spring accelerates by fastest^2 [1/s^2].
-
-    The energy of a charge grows with its square: an acceleration of k D^2 has the slope 2 k at a D of 1 C/m^2.
-    """
-    count = problem.model.COORDINATE_COUNT
-    charged = np.array(reference)
-    charged[place] = 1.0
-    slope = np.max(np.abs(problem.jacobian(0.0, charged)[count : 2 * count, place]) / sizes, initial=0.0)
-    size = fastest * np.sqrt(2.0 / slope) if 0 < slope < np.inf else 0.0
-    return float(size) if size > 0 else 1.0

@@ -12,7 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from delagrange.model.variables import is_stretch
-from delagrange.problem.coordinate_size import straining_change, strains_at
+from delagrange.problem.coordinate_size import straining_change, strains_at, typical_sizes
+from delagrange.problem.dashpots import charge_place
 from delagrange.problem.problem import Problem
 from delagrange.problem.status import Limits
 
@@ -68,10 +69,17 @@ def make_chart(problem: Problem, unknowns: np.ndarray) -> Chart:
         [is_stretch(entries[place]) and reference[place] > 0 for place in unknowns], dtype=bool
     )
     sizes = [
-        1.0 if known else straining_change(problem, reference, int(place))
+        1.0 if known else _size(problem, reference, int(place))
         for place, known in zip(unknowns, logarithmic)
     ]
     return Chart(logarithmic, reference[unknowns], np.array(sizes, dtype=float))
+
+
+def _size(problem: Problem, reference: np.ndarray, place: int) -> float:
+    """Of an unknown that is no stretch."""
+    if place == charge_place(problem.model):
+        return float(typical_sizes(problem)[place])
+    return straining_change(problem, reference, place)
 
 
 def within_limits(problem: Problem, rest: np.ndarray, place: int, count: int, limits: Limits) -> np.ndarray:

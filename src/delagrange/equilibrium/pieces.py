@@ -8,6 +8,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from delagrange.drives.inputs import input_name
 from delagrange.equilibrium.continuation import (
     Lost,
     Point,
@@ -19,7 +20,6 @@ from delagrange.equilibrium.continuation import (
     turning,
 )
 from delagrange.equilibrium.statics import STEPS, TOLERANCE, Statics
-from delagrange.problem.problem import input_name
 
 FOLD = "fold"
 CLOSED = "closed on itself"

@@ -3,50 +3,30 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
-from functools import cached_property
 from types import ModuleType
 
 import numpy as np
 
 from delagrange.common import checks
 from delagrange.common.units import with_unit
-from delagrange.drives.inputs import (
-    CURRENT_DENSITY,
-    ElectricalInput,
-    Inputs,
-    constant_inputs,
-    has_input,
-    input_name,
-)
+from delagrange.drives.inputs import Inputs, constant_inputs, input_name
 from delagrange.equilibrium.branches import acting_forces, at_zero_field, connected_pieces, stable_until
-from delagrange.equilibrium.chart import make_chart
 from delagrange.equilibrium.continuation import Lost, parameter_of
 from delagrange.equilibrium.pieces import FOLD, Piece, point_at, trace
 from delagrange.equilibrium.seeds import same
 from delagrange.equilibrium.statics import (
-    NEEDED,
+    ENDLESS_CHARGE,
     Statics,
-    at_rest,
     input_place,
+    is_endless,
     make_statics,
-    typical_input,
     unloaded,
 )
 from delagrange.equilibrium.vibration import growing_directions
-from delagrange.model.load import check_offers, load_model
 from delagrange.model.parameters import Parameters
-from delagrange.problem.dashpots import (
-    FROZEN,
-    RELAXED,
-    charge_place,
-    coordinate_places,
-    dashpot_places,
-    frozen,
-    rate_places,
-)
-from delagrange.problem.problem import Problem, make_problem
-from delagrange.problem.status import Limits
+from delagrange.problem.dashpots import RELAXED
+from delagrange.problem.problem import Problem, make_specimen
+from delagrange.problem.status import Limits, checked_limits
 
 
 def rest_state(
@@ -83,14 +63,12 @@ def rest_state(
         ValueError: something given makes no sense, or there is no such equilibrium; the message names the load, and up
             to which there is one.
     """
-    module = load_model(model, formulation, lateral_dashpot)
-    given = constant_inputs(module, inputs, "a state of rest")
+    specimen = make_specimen(model, formulation, lateral_dashpot, parameters)
+    given = constant_inputs(specimen.model, inputs, "a state of rest")
     loads = _number("force", force, "N"), _number("field", field, "V/m")
-    problem = make_problem(module, parameters, material, held_stretch, *loads, given)
-    for entry, value in zip(module.PARAMETERS, problem.parameters):
-        checks.scalar(entry.name, value, entry.unit)
-    state = resting_state(problem, dashpots, Limits() if limits is None else limits)
-    return {entry.name: float(value) for entry, value in zip(module.STATE, state)}
+    problem = specimen.single_problem(material, held_stretch, *loads, given)
+    state = resting_state(problem, dashpots, checked_limits(limits))
+    return {entry.name: float(value) for entry, value in zip(specimen.model.STATE, state)}
 
 
 def resting_state(problem: Problem, dashpots: str, limits: Limits) -> np.ndarray:
@@ -99,8 +77,10 @@ def resting_state(problem: Problem, dashpots: str, limits: Limits) -> np.ndarray
     Raises:
         ValueError: there is no stable equilibrium under its loads.
     """
-    statics = _statics(problem, dashpots, limits)
+    statics = make_statics(problem, dashpots, None, limits)
     value = float(problem.inputs(0.0)[statics.varied])
+    if is_endless(statics, value):
+        raise ValueError(f"{_nowhere(problem)}: {ENDLESS_CHARGE}")
     try:
         x = _equilibrium(statics, abs(value))
         grows = growing_directions(statics, x)
@@ -110,52 +90,7 @@ def resting_state(problem: Problem, dashpots: str, limits: Limits) -> np.ndarray
         raise ValueError(
             f"{_nowhere(problem)}: the equilibrium is unstable{_stable_up_to(statics, abs(value))}"
         )
-    state = statics.state(x)
-    charge = charge_place(problem.model)
-    if charge is not None:
-        state[charge] = np.copysign(state[charge], value)  # all else is even in it
-    return state
-
-
-@dataclass(frozen=True)
-class _UnderCurrent(Statics):
-    """A membrane whose charge is fed by a current, which is what varies: at rest as much leaks.
-
-    Without current no charge is there, and it is none of the unknowns: a membrane that does not leak would keep any.
-    """
-
-    @cached_property
-    def electrical(self) -> ElectricalInput:
-        """The current."""
-        return CURRENT_DENSITY
-
-    @cached_property
-    def scale(self) -> np.ndarray:
-        """(n_unknowns + 1,): as of any input that does not enter squared."""
-        return np.append(np.ones(len(self.unknowns)), typical_input(self, self.name))
-
-
-def _statics(problem: Problem, dashpots: str, limits: Limits) -> Statics:
-    model = problem.model
-    if not has_input(model, CURRENT_DENSITY.name):
-        return make_statics(problem, dashpots, None, limits)
-    checks.choice("dashpots", dashpots, (FROZEN, RELAXED))
-    checks.instance("limits", limits, Limits)
-    check_offers(model, NEEDED, "an equilibrium")
-    varied, places = input_place(problem, CURRENT_DENSITY.name), np.arange(len(model.STATE))
-    charge = [] if problem.inputs(0.0)[varied] == 0 else [charge_place(model)]
-    flowing = places[dashpot_places(model)] if dashpots == RELAXED else places[:0]
-    unknowns = np.concatenate([places[coordinate_places(model)], flowing, places[charge]])
-    return _UnderCurrent(
-        problem=problem if dashpots == RELAXED else frozen(problem),
-        rest=at_rest(problem, None),
-        inputs=np.array(problem.inputs(0.0), dtype=float),
-        varied=varied,
-        unknowns=unknowns,
-        rows=np.concatenate([places[rate_places(model)], flowing, places[charge]]),
-        chart=make_chart(problem, unknowns),
-        limits=limits,
-    )
+    return statics.signed_state(x, value)
 
 
 def _equilibrium(statics: Statics, value: float) -> np.ndarray:

@@ -8,7 +8,7 @@ import numpy as np
 
 from delagrange.equilibrium.chart import within_limits
 from delagrange.equilibrium.continuation import Lost, solve
-from delagrange.equilibrium.statics import TOLERANCE, Statics, with_relaxed_dashpots
+from delagrange.equilibrium.statics import TOLERANCE, Statics, with_leaking_charge, with_relaxed_dashpots
 from delagrange.problem import status as loss
 from delagrange.problem.dashpots import coordinate_places
 
@@ -67,8 +67,8 @@ def _newton_over_lanes(statics: Statics, states: np.ndarray, value: float) -> np
     """x of the lanes that came to rest, (n_found, n_unknowns + 1)."""
     inputs = statics.inputs.copy()
     inputs[statics.varied] = value
-    states = states.copy()
     with np.errstate(all="ignore"):
+        states = with_leaking_charge(statics, states, tuple(inputs)).copy()
         for _ in range(_ITERATIONS):
             step = _steps(statics, states, tuple(inputs))
             step = np.clip(step, -_LARGEST_STRAIN, _LARGEST_STRAIN)

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from delagrange.drives.drive import Constant, Drive, Sine, Values
-from delagrange.drives.sines import ELECTRICAL_INPUTS
+from delagrange.drives.inputs import ELECTRICAL
 from delagrange.equilibrium.rest_state import resting_state
 from delagrange.problem.dashpots import RELAXED, given_state
 from delagrange.problem.initial import is_equilibrium
@@ -44,8 +44,7 @@ def before_the_field(problem: Problem) -> Problem:
     A sine of a force counts with its bias; a step at 0 s counts as made.
     """
     entries = zip(problem.model.INPUTS, problem.drives)
-    off = [each.name for each in ELECTRICAL_INPUTS]
-    drives = (0.0 if entry.name in off else _at_start(drive) for entry, drive in entries)
+    drives = (0.0 if entry.name in ELECTRICAL else _at_start(drive) for entry, drive in entries)
     return replace(problem, drives=tuple(Constant(value) for value in drives))
 
 

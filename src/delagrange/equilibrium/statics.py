@@ -1,7 +1,7 @@
 """The equations of a membrane at rest: where its springs, forces and field, or charge, balance.
 
 The unknowns are the logarithms of the stretches: all are positive, and a step is a strain. A coordinate that is no
-stretch is measured as `chart` says.
+stretch is measured as `chart` says. Under a current the charge is one more unknown: at rest as much leaks as is fed.
 """
 
 from __future__ import annotations
@@ -14,7 +14,12 @@ import numpy as np
 
 from delagrange.common import checks
 from delagrange.common.roles import Role
-from delagrange.drives.inputs import CHARGE_DENSITY, ElectricalInput, electrical_input
+from delagrange.drives.inputs import (
+    CURRENT_DENSITY,
+    ELECTRIC_FIELD,
+    ElectricalInput,
+    electrical_input,
+)
 from delagrange.equilibrium.chart import Chart, make_chart
 from delagrange.equilibrium.continuation import ContinuationSettings, Evaluation, Lost, solve
 from delagrange.model.load import check_offers
@@ -23,18 +28,21 @@ from delagrange.problem import status as loss
 from delagrange.problem.dashpots import (
     FROZEN,
     RELAXED,
+    charge_place,
     coordinate_places,
     dashpot_count,
     dashpot_places,
     frozen,
     given_state,
+    leak_rate,
     rate_places,
 )
 from delagrange.problem.problem import Problem
 from delagrange.problem.status import Limits
 
-NEEDED = ("jacobian", "input_jacobian", "mass_matrix", "edge_forces")
-NEEDED_UNDER_CHARGE = ("potential_energy",)  # which knows how the permittivity depends on the stretches
+_NEEDED = ("jacobian", "input_jacobian", "mass_matrix", "edge_forces")
+_NEEDED_WITHOUT_FIELD = ("electrodes",)  # which know how the permittivity depends on the stretches
+ENDLESS_CHARGE = "its charge does not leak, and under a constant current grows without end"
 TOLERANCE = 1e-11  # of the last Newton correction of the strains; the error is its square, down to round-off
 _LARGEST_STRAIN = 50.0  # of the logarithms on the way; powers of stretches beyond are no numbers
 STEPS = ContinuationSettings(
@@ -84,9 +92,26 @@ class Statics:
         return self.problem.model.INPUTS[self.varied].name
 
     @property
+    def flowing(self) -> np.ndarray:
+        """Places in the state of what flows until it rests: inelastic stretches that are not frozen, a charge."""
+        return self.unknowns[self.problem.model.COORDINATE_COUNT :]
+
+    @property
+    def moving(self) -> np.ndarray:
+        """Places in the state of all that moves about an equilibrium."""
+        return np.concatenate([np.arange(2 * self.problem.model.COORDINATE_COUNT), self.flowing])
+
+    @property
     def relaxed(self) -> bool:
-        """Whether the dashpots are at rest, too."""
-        return len(self.unknowns) > self.problem.model.COORDINATE_COUNT
+        """Whether there are dashpots, and they are at rest, too."""
+        dashpots = dashpot_places(self.problem.model)
+        return dashpots.stop > dashpots.start and dashpots.start in self.flowing
+
+    @property
+    def charge(self) -> int | None:
+        """Place in the state of a charge that leaks; None where there is none."""
+        place = charge_place(self.problem.model)
+        return place if place in self.flowing else None
 
     def varying(self, name: str, **values: float) -> Statics:
         """The same membrane with the input `name` varied and other inputs set."""
@@ -100,6 +125,20 @@ class Statics:
         state = self.rest.copy()
         state[self.unknowns] = self.chart.values(x[:-1])
         return state
+
+    def signed_state(self, x: np.ndarray, value: float) -> np.ndarray:
+        """(n_state,) at a value of the electrical input whose size x has: the charge alone knows its sign."""
+        state = self.state(x)
+        if self.charge is not None:
+            state[self.charge] = np.copysign(state[self.charge], value)
+        return state
+
+    def without_electricity(self, x: np.ndarray) -> np.ndarray:
+        """x with the stretches as they are, and no field or charge."""
+        without = x.copy()
+        without[-1] = 0.0
+        without[:-1][self.unknowns == self.charge] = 0.0
+        return without
 
     def x_of(self, state: np.ndarray, value: float) -> np.ndarray:
         """The vector of a state and a value of the varied input."""
@@ -155,14 +194,16 @@ def make_statics(
     checks.choice("dashpots", dashpots, (FROZEN, RELAXED))
     checks.instance("limits", limits, Limits)
     electrical = electrical_input(model)  # which is what varies
-    under_charge = NEEDED_UNDER_CHARGE if electrical is CHARGE_DENSITY else ()
-    check_offers(model, (*NEEDED, *under_charge), "an equilibrium")
-    flows = dashpots == RELAXED
-    places = np.arange(len(model.STATE))
-    flowing = places[dashpot_places(model)] if flows else places[:0]
+    without_field = () if electrical is ELECTRIC_FIELD else _NEEDED_WITHOUT_FIELD
+    check_offers(model, (*_NEEDED, *without_field), "an equilibrium")
+    if electrical is CURRENT_DENSITY and charge_place(model) is None:
+        raise ValueError(f"the model {model.MODEL} has a current, and no charge in its state that it feeds")
+    places, relaxed = np.arange(len(model.STATE)), dashpots == RELAXED
+    flowing = [*(places[dashpot_places(model)] if relaxed else ()), *_leaking_charge(problem)]
+    flowing = np.array(flowing, dtype=int)
     unknowns = np.concatenate([places[coordinate_places(model)], flowing])
     return Statics(
-        problem=problem if flows else frozen(problem),
+        problem=problem if relaxed else frozen(problem),
         rest=at_rest(problem, initial_state),
         inputs=np.array(problem.inputs(0.0), dtype=float),
         varied=input_place(problem, electrical.name),
@@ -171,6 +212,26 @@ def make_statics(
         chart=make_chart(problem, unknowns),
         limits=limits,
     )
+
+
+def _leaking_charge(problem: Problem) -> tuple[int, ...]:
+    """Place in the state of a charge that leaks; one that does not may be any, and is not looked for."""
+    return (charge_place(problem.model),) if leak_rate(problem) > 0 else ()
+
+
+def is_endless(statics: Statics, value: float) -> bool:
+    """Whether there is no rest at a value of the electrical input because `ENDLESS_CHARGE`."""
+    return value != 0 and statics.electrical is CURRENT_DENSITY and statics.charge is None
+
+
+def refuse_endless(statics: Statics, value: float, what: str) -> None:
+    """Refuse a value of the electrical input at which there is no rest because `ENDLESS_CHARGE`; it has no `what`.
+
+    Raises:
+        ValueError: in one line.
+    """
+    if is_endless(statics, value):
+        raise ValueError(f"{statics.problem.model.MODEL} has no {what} under a current: {ENDLESS_CHARGE}")
 
 
 def at_rest(problem: Problem, initial_state: Mapping[str, float] | None) -> np.ndarray:
@@ -244,10 +305,25 @@ def typical_input(statics: Statics, name: str) -> float:
     return 1 / strain if strain > 0 else 1.0
 
 
+def with_leaking_charge(statics: Statics, states: np.ndarray, inputs: tuple) -> np.ndarray:
+    """(n_state, n_lanes): a charge that leaks begins where as much leaks as the current feeds."""
+    if statics.charge is None:
+        return states
+    states, place = states.copy(), statics.charge
+    states[place] = 0.0
+    arguments = states, inputs, statics.problem.parameters
+    model = statics.problem.model
+    states[place] = -model.rhs(*arguments)[place] / model.jacobian(*arguments)[place, place]
+    return states
+
+
 def typical_electrical(statics: Statics) -> float:
     """The field [V/m], or charge [C/m^2], that would strain the membrane by 1 in the reference state, were it
-    linear but for E^2, or D^2.
+    linear but for E^2, or D^2; or the current [A/m^2] that holds a typical charge.
     """
+    if statics.electrical is CURRENT_DENSITY:
+        of_charge = statics.chart.size[statics.unknowns == statics.charge]
+        return float(of_charge[0] * leak_rate(statics.problem)) if of_charge.size else 1.0
     strain = _reference_strain(statics, statics.electrical.name)
     return float(np.sqrt(2 / strain)) if strain > 0 else 1.0
 

@@ -48,7 +48,7 @@ def stiffness_and_mass(statics: Statics, x: np.ndarray) -> tuple[np.ndarray, np.
 
 def growing_directions(statics: Statics, x: np.ndarray) -> int:
     """In how many directions a small disturbance grows."""
-    if not statics.relaxed:
+    if not statics.flowing.size:
         return int(np.sum(eigh(*stiffness_and_mass(statics, x), eigvals_only=True) < 0))
     eigenvalues = _quick_eigenvalues(statics, x)
     return int(np.sum(eigenvalues.real > _GROWS * np.max(np.abs(eigenvalues))))
@@ -56,13 +56,13 @@ def growing_directions(statics: Statics, x: np.ndarray) -> int:
 
 def stability_margin(statics: Statics, x: np.ndarray) -> float:
     """Positive where an equilibrium is stable, negative where it is not; only the sign has a meaning."""
-    if not statics.relaxed:
+    if not statics.flowing.size:
         return float(eigh(*stiffness_and_mass(statics, x), eigvals_only=True)[0])
     return -float(np.max(_quick_eigenvalues(statics, x).real))
 
 
 def _quick_eigenvalues(statics: Statics, x: np.ndarray) -> np.ndarray:
-    return np.linalg.eigvals(_with_quick_dashpots(statics, statics_jacobian(statics, x)))
+    return np.linalg.eigvals(_of_moving(statics, _with_quick_dashpots(statics, statics_jacobian(statics, x))))
 
 
 def stability_name(statics: Statics, growing: int) -> str:
@@ -82,11 +82,11 @@ def vibration(statics: Statics, x: np.ndarray) -> Vibration:
 
 
 def relaxing_vibration(statics: Statics, x: np.ndarray) -> tuple[Vibration, np.ndarray]:
-    """The modes that vibrate while the dashpots flow, by increasing frequency, and the real rates of all else [1/s].
+    """The modes that vibrate while dashpots and charge flow, by increasing frequency; the real rates of all else [1/s].
 
     From the eigenvalues of the full Jacobian.
     """
-    jacobian = statics_jacobian(statics, x)
+    jacobian = _of_moving(statics, statics_jacobian(statics, x))
     values, vectors = np.linalg.eig(jacobian)
     round_off = _GROWS * np.max(np.abs(values))  # by which equal real rates, as of equal branches, come apart
     vibrating = np.flatnonzero(values.imag > round_off)
@@ -102,6 +102,11 @@ def relaxing_vibration(statics: Statics, x: np.ndarray) -> tuple[Vibration, np.n
 def statics_jacobian(statics: Statics, x: np.ndarray) -> np.ndarray:
     """(n_state, n_state), emitted with the model."""
     return statics.problem.model.jacobian(*statics.arguments(x))
+
+
+def _of_moving(statics: Statics, jacobian: np.ndarray) -> np.ndarray:
+    """The rows and columns of what moves about an equilibrium: without frozen dashpots."""
+    return jacobian[np.ix_(statics.moving, statics.moving)]
 
 
 def _with_quick_dashpots(statics: Statics, jacobian: np.ndarray) -> np.ndarray:

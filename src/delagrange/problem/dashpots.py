@@ -13,14 +13,9 @@ from types import ModuleType
 
 import numpy as np
 
-from delagrange.common import checks
 from delagrange.common.roles import Role
 from delagrange.model.variables import named, role_of
-from delagrange.problem.initial import (
-    checked_initial,
-    initial_units,
-    state_at_start,
-)
+from delagrange.problem.initial import single_initial, state_at_start
 from delagrange.problem.problem import Problem
 
 FROZEN, RELAXED, EVOLVING = "frozen", "relaxed", "evolving"
@@ -36,13 +31,22 @@ def frozen(problem: Problem) -> Problem:
 
 
 def is_damped(problem: Problem) -> bool:
-    """Whether something damps that no frozen dashpot stops: a dashpot in parallel, or the medium.
+    """Whether something damps that no frozen dashpot stops: a dashpot in parallel, the medium, or a leak of charge.
 
     At rest inertia has no slope by the rates, so that what is there is damping.
     """
-    reference = np.array(problem.model.reference_state(problem.parameters), dtype=float)
-    slopes = problem.jacobian(0.0, reference)[rate_places(problem.model), rate_places(problem.model)]
-    return bool(np.any(slopes != 0))
+    rates = rate_places(problem.model)
+    return bool(np.any(_reference_jacobian(problem)[rates, rates] != 0)) or leak_rate(problem) > 0
+
+
+def leak_rate(problem: Problem) -> float:
+    """How fast a charge that is part of the state leaks in the reference state [1/s]; 0 where there is none."""
+    charge = charge_place(problem.model)
+    return 0.0 if charge is None else -float(_reference_jacobian(problem)[charge, charge])
+
+
+def _reference_jacobian(problem: Problem) -> np.ndarray:
+    return problem.jacobian(0.0, np.array(problem.model.reference_state(problem.parameters), dtype=float))
 
 
 def dashpot_count(model: ModuleType) -> int:
@@ -79,7 +83,5 @@ def given_state(problem: Problem, initial_state: Mapping[str, float] | None) -> 
         ValueError: an unknown name, a value that is not a single finite number, a stretch that is not positive.
     """
     model = problem.model
-    units = initial_units(model)
-    given = checked_initial(model, initial_state)
-    values = {name: checks.scalar(name, value, units[name]) for name, value in given.items()}
-    return state_at_start(model, np.array(model.reference_state(problem.parameters), dtype=float), values)
+    reference = np.array(model.reference_state(problem.parameters), dtype=float)
+    return state_at_start(model, reference, single_initial(model, initial_state))

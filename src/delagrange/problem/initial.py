@@ -52,6 +52,24 @@ def checked_initial(model: ModuleType, given: Mapping[str, object] | None) -> di
     }
 
 
+def single_initial(model: ModuleType, given: Mapping[str, object] | None) -> dict[str, float]:
+    """As `checked_initial`, of single numbers alone.
+
+    Raises:
+        ValueError: an array, or as `checked_initial`.
+    """
+    units = initial_units(model)
+    return {
+        name: checks.scalar(f"initial_state {name.removeprefix(PREFIX)}", value, units[name])
+        for name, value in checked_initial(model, given).items()
+    }
+
+
+def start_attributes(model: ModuleType, given: object) -> dict[str, str]:
+    """What a result says of where it started, if that is the loaded equilibrium."""
+    return {"initial_state": EQUILIBRIUM_MEANING} if is_equilibrium(model, given) else {}
+
+
 def state_at_start(model: ModuleType, reference: np.ndarray, values: Mapping[str, object]) -> np.ndarray:
     """The state at t = 0, (n_state, n_lanes): the values of a grid, and the reference state for the rest."""
     state = np.array(reference)

@@ -1,4 +1,4 @@
-"""A model with its drives and parameters: what an integrator integrates."""
+"""A model with its drives and parameters: what an integrator integrates, and how it is put together."""
 
 from __future__ import annotations
 
@@ -13,12 +13,11 @@ from delagrange.common import checks
 from delagrange.common.units import shown, with_unit
 from delagrange.drives.drive import Drive, Values
 from delagrange.drives.inputs import Inputs, drives_of, input_name
-from delagrange.model.material import defaults_of, held_stretch_name, value_of
+from delagrange.model.load import load_model
+from delagrange.model.material import Material, defaults_of, held_stretch_name, value_of
 from delagrange.model.parameters import Parameters, material_of
 from delagrange.problem import status as loss
 from delagrange.problem.status import Limits
-
-__all__ = ["Problem", "input_name", "make_problem"]
 
 
 @dataclass(frozen=True)
@@ -28,6 +27,7 @@ class Problem:
     model: ModuleType
     drives: tuple[Drive, ...]  # one for each of model.INPUTS
     parameters: tuple[Values, ...]  # one for each of model.PARAMETERS
+    source: str = ""  # of the single-valued parameters
 
     def inputs(self, time: Values) -> tuple[Values, ...]:
         """Values of the model's inputs at `time` [s].
@@ -89,34 +89,88 @@ class Problem:
         return replace(self, drives=tuple(drive.take(lanes) for drive in self.drives), parameters=parameters)
 
 
-def make_problem(
-    model: ModuleType,
-    parameters: Parameters | None,
-    changes: Mapping[str, Values],
-    held_stretch: Values | None,
-    force: Drive | Values,
-    field: Drive | Values,
-    inputs: Inputs | None = None,
-) -> Problem:
-    """Put a problem together, checking that the model has what is given and is given what it has.
+@dataclass(frozen=True)
+class Specimen:
+    """A model with its material, before anything of it is changed or loaded."""
 
-    Args:
-        parameters, changes: of the material, see `delagrange.model.parameters.material_of`.
-        inputs: drives or values of inputs by name, those of `model.INPUTS`; one that is not given is zero.
+    model: ModuleType
+    material: Material
+
+    def problem(
+        self,
+        changes: Mapping[str, Values],
+        held_stretch: Values | None,
+        force: Drive | Values,
+        field: Drive | Values,
+        inputs: Inputs | None = None,
+    ) -> Problem:
+        """Put a problem together, checking that the model has what is given and is given what it has.
+
+        Args:
+            changes: of the material, by name.
+            inputs: drives or values of inputs by name, those of `model.INPUTS`; one that is not given is zero.
+
+        Raises:
+            ValueError: a bad value, an unknown parameter, a force, field or held stretch that the model
+                has no place for, a held stretch missing, or values with which double precision cannot
+                compute the equations.
+        """
+        values = self.material.changed(changes) | _held(self.model, held_stretch)
+        problem = Problem(
+            self.model,
+            drives_of(self.model, force, field, inputs),
+            tuple(value_of(self.model, variable.name, values) for variable in self.model.PARAMETERS),
+            self.material.changed_source({name: value for name, value in changes.items() if np.ndim(value) == 0}),
+        )
+        _check_computable(problem)
+        return problem
+
+    def single_problem(
+        self,
+        changes: Mapping[str, float],
+        held_stretch: float | None,
+        force: Drive | float,
+        field: Drive | float,
+        inputs: Inputs | None = None,
+    ) -> Problem:
+        """As `problem`, of single values alone.
+
+        Raises:
+            ValueError: arrays, or as `problem`.
+        """
+        problem = self.problem(changes, held_stretch, force, field, inputs)
+        for name, value in changes.items():
+            checks.scalar(name, value, self.material.units[name])
+        entries = zip(
+            (*self.model.PARAMETERS, *self.model.INPUTS), (*problem.parameters, *problem.inputs(0.0))
+        )
+        for entry, value in entries:
+            checks.scalar(input_name(entry.name), value, entry.unit)
+        return problem
+
+
+def make_specimen(
+    model: str | ModuleType,
+    formulation: str | None,
+    lateral_dashpot: str | None,
+    parameters: Parameters | None,
+) -> Specimen:
+    """The model that is named, or is given itself, with the material that `parameters` and its defaults make.
 
     Raises:
-        ValueError: a bad value, an unknown parameter, a force, field or held stretch that the model
-            has no place for, a held stretch missing, or values with which double precision cannot
-            compute the equations.
+        ValueError: as `delagrange.load_model` and `delagrange.model.parameters.material_of`.
     """
-    values = material_of(model, parameters).changed(changes) | _held(model, held_stretch)
-    problem = Problem(
-        model,
-        drives_of(model, force, field, inputs),
-        tuple(value_of(model, variable.name, values) for variable in model.PARAMETERS),
-    )
-    _check_computable(problem)
-    return problem
+    module = load_model(model, formulation, lateral_dashpot)
+    return Specimen(module, material_of(module, parameters))
+
+
+def make_problem(model: ModuleType, parameters: Parameters | None, *given: object) -> Problem:
+    """The problem of a loaded model; the other arguments are those of `Specimen.problem`.
+
+    Raises:
+        ValueError: as `Specimen.problem`.
+    """
+    return Specimen(model, material_of(model, parameters)).problem(*given)
 
 
 def _check_computable(problem: Problem) -> None:

@@ -47,6 +47,15 @@ class Limits:
             )
 
 
+def checked_limits(limits: Limits | None) -> Limits:
+    """The limits given, or those that hold where none are.
+
+    Raises:
+        ValueError: something else is given.
+    """
+    return Limits() if limits is None else checks.instance("limits", limits, Limits)
+
+
 def margin(principal: np.ndarray, limits: Limits, validity: np.ndarray | None = None) -> np.ndarray:
     """Distance [1] from loss: positive while all is well, negative once lost, continuous between.
 

@@ -10,15 +10,15 @@ import numpy as np
 import xarray as xr
 
 from delagrange.common.progress import working
-from delagrange.drives.drive import Drive
+from delagrange.drives.drive import Drive, Sine
 from delagrange.drives.inputs import Inputs
-from delagrange.drives.sines import ELECTRICAL_INPUTS, driven_sine, phase_name, sine_long_names, sine_text
+from delagrange.drives.sines import driven_sine, sine_long_names, sine_text, with_drive
 from delagrange.engines.engines import resolve_numerics
 from delagrange.engines.lanes import Outcome
-from delagrange.model.load import load_model
 from delagrange.model.parameters import Parameters
 from delagrange.model.user_files import is_users
 from delagrange.problem.initial import EQUILIBRIUM_MEANING, PREFIX, is_equilibrium
+from delagrange.problem.problem import make_specimen
 from delagrange.problem.status import Limits
 from delagrange.run.measures import Measures
 from delagrange.run.run_dataset import (
@@ -38,8 +38,9 @@ from delagrange.run.sweep import Sweep, make_settings, make_sweep, run_sweep
 def frequency_response(
     model: str | ModuleType,
     *,
-    frequency: np.ndarray | float,
     duration: float,
+    frequency: np.ndarray | float | None = None,
+    drive: Sine | None = None,
     field_amplitude: np.ndarray | float | None = None,
     field_bias: np.ndarray | float = 0.0,
     field_phase: np.ndarray | float = 0.0,
@@ -83,7 +84,10 @@ def frequency_response(
 
     Args:
         duration: of each run [s].
-        field_amplitude: must be given where the model has a field.
+        drive: amplitude, bias, phase and frequency as one `delagrange.Sine`, each a number or an array that makes an
+            axis as if given by its own argument; it drives the field, or the charge or current of a model that has
+            that. Left out, they are given by
+        field_amplitude: which must be given where the model has a field, and the others.
         charge_amplitude, charge_bias, charge_phase: [C/m^2] and [rad] of the same sine of the nominal charge density
             instead, where that drives the model; and
         current_amplitude, current_bias, current_phase: [A/m^2] and [rad] of the nominal current density where
@@ -130,21 +134,24 @@ def frequency_response(
         ValueError: something given makes no sense, the result would take more than 8 GiB, or a run has no
             equilibrium to start at; the message names it, its value, its unit and what is allowed.
     """
-    module = load_model(model, formulation, lateral_dashpot)
+    specimen = make_specimen(model, formulation, lateral_dashpot, parameters)
+    module = specimen.model
     measures = Measures(averages, final_state, section_points, section_phase, sample_interval)
     with working(progress, f"preparing {module.MODEL}; its first use on a machine takes seconds to compile"):
         numerics = resolve_numerics(method, engine, step_control, extrema, module, [force, *_given(inputs)])
     settings = make_settings(duration, window, rtol, atol, numerics, limits, averages, threads)
-    sines = (
-        (field_amplitude, field_bias, field_phase),
-        (charge_amplitude, charge_bias, charge_phase),
-        (current_amplitude, current_bias, current_phase),
-    )
-    electrical, sine = driven_sine(module, dict(zip(ELECTRICAL_INPUTS, sines)), inputs)
+    sines = {
+        "field_amplitude": field_amplitude, "field_bias": field_bias, "field_phase": field_phase,
+        "charge_amplitude": charge_amplitude, "charge_bias": charge_bias, "charge_phase": charge_phase,
+        "current_amplitude": current_amplitude, "current_bias": current_bias, "current_phase": current_phase,
+    }  # fmt: skip
+    if drive is not None:
+        frequency, sines = with_drive(module, drive, frequency, sines)
+    electrical, sine = driven_sine(module, sines, inputs)
     values = {"force": force, **sine, "held_stretch": held_stretch, **material, "frequency": frequency}
     with working(progress and is_equilibrium(module, initial_state), "finding where the runs start, at rest"):
         sweep = make_sweep(
-            module, parameters, values, settings, numerics.engine, measures, initial_state, inputs, electrical
+            specimen, values, settings, numerics.engine, measures, initial_state, inputs, electrical
         )
     outcome = run_sweep(sweep, progress)
     tolerances = {"rtol": settings.control.rtol, "atol": settings.control.atol}
@@ -191,7 +198,7 @@ def _section_time(sweep: Sweep) -> tuple:
     lengths, sampling = sweep.field_sampling()
     times = sampling.times().T.reshape(*lengths.values(), sampling.count)
     phase = sweep.measures.section_phase
-    angle = f"2 pi f t + {phase_name(sweep.electrical)}"
+    angle = f"2 pi f t + {sweep.electrical.phase}"
     definition = f"the last times in the duration at which {angle} is {phase:g} rad modulo 2 pi"
     more = {"definition": definition, "section_phase": phase, "section_phase_units": "rad"}
     return variable((*lengths, "period"), times, "s", "time of the section", "t", **more)
@@ -239,9 +246,7 @@ def _equilibrium_coordinates(sweep: Sweep, long_names: Mapping[str, str]) -> dic
 
 def _attributes(sweep: Sweep) -> dict[str, object]:
     """What all runs have in common; what varies over the grid is said by its coordinates."""
-    material = sweep.material
-    single = {name: value for name, value in sweep.grid.single.items() if name in material.units}
-    common = run_attributes(sweep.problem(slice(0, 1)), material.replace(**single), sweep.settings.limits)
+    common = run_attributes(sweep.problem(slice(0, 1)), sweep.settings.limits)
     for name in sweep.grid.axes:
         common.pop(name, None)
         common.pop(f"{name}_units", None)

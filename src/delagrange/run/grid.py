@@ -37,7 +37,7 @@ class Grid:
 
 
 def make_grid(values: Mapping[str, float | np.ndarray], units: Mapping[str, str], always: str) -> Grid:
-    """The grid over checked `values`; the name `always` makes an axis even with one value.
+    """The grid over checked `values`; the name `always` makes an axis even with one value, and is checked as one.
 
     Raises:
         ValueError: values along an axis that are not one-dimensional, none, or not distinct.
@@ -48,7 +48,7 @@ def make_grid(values: Mapping[str, float | np.ndarray], units: Mapping[str, str]
         if array.ndim == 0 and name != always:
             single[name] = float(array)
         else:
-            axes[name] = checks.distinct(name, np.atleast_1d(array), units[name])
+            axes[name] = array if name == always else checks.distinct(name, array, units[name])
     grid = Grid(axes, single, dict(units))
     if grid.size > MOST_RUNS:
         lengths = " x ".join(f"{len(along)} {name}" for name, along in axes.items())

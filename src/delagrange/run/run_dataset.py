@@ -10,8 +10,6 @@ import numpy as np
 import xarray as xr
 
 from delagrange.engines.lanes import Outcome
-from delagrange.model.material import Material
-from delagrange.model.parameters import Parameters
 from delagrange.model.user_files import is_users
 from delagrange.problem.problem import Problem
 from delagrange.problem.status import COMPLETED, STATUS, STATUS_MEANING, Limits
@@ -135,7 +133,7 @@ def forces_text(found: xr.Dataset) -> str:
     return ", ".join(given) or "0 N"
 
 
-def run_attributes(problem: Problem, parameters: Parameters | Material, limits: Limits) -> dict[str, object]:
+def run_attributes(problem: Problem, limits: Limits) -> dict[str, object]:
     """What a run was made of: model, single-valued parameters with units, drives, limits, version and source."""
     model = problem.model
     single: dict[str, object] = {}
@@ -149,7 +147,7 @@ def run_attributes(problem: Problem, parameters: Parameters | Material, limits: 
         "formulation": model.FORMULATION,
         **single,
         **drives,
-        "parameters_source": parameters.source,
+        "parameters_source": problem.source,
         "smallest_stretch": limits.smallest_stretch,
         "largest_stretch": limits.largest_stretch,
         "delagrange_version": version("delagrange"),

@@ -11,14 +11,14 @@ import xarray as xr
 from delagrange.common import checks
 from delagrange.common.units import shown
 from delagrange.drives.drive import Drive
-from delagrange.drives.inputs import Inputs
+from delagrange.drives.inputs import Inputs, input_name
 from delagrange.equilibrium.start import starting_state
-from delagrange.model.load import check_offers, load_model
-from delagrange.model.parameters import Parameters, material_of
+from delagrange.model.load import check_offers
+from delagrange.model.parameters import Parameters
 from delagrange.model.variables import role_of, sign_of
 from delagrange.problem import status as loss
-from delagrange.problem.initial import EQUILIBRIUM_MEANING, is_equilibrium
-from delagrange.problem.problem import Problem, input_name, make_problem
+from delagrange.problem.initial import start_attributes
+from delagrange.problem.problem import Problem, make_specimen
 from delagrange.problem.status import Limits
 from delagrange.problem.tolerances import check_duration, check_tolerances
 from delagrange.problem.trajectory import EXPLICIT, METHODS, Trajectory, integrate
@@ -91,24 +91,21 @@ def simulate(
         ValueError: something given makes no sense, or there is no equilibrium to start at; the message names it,
             its value, its unit and what is allowed.
     """
-    module = load_model(model, formulation, lateral_dashpot)
+    specimen = make_specimen(model, formulation, lateral_dashpot, parameters)
+    module = specimen.model
     duration = check_duration(duration)
     rtol, atol = check_tolerances(rtol, atol)
     checks.choice("method", method, METHODS)
     checks.instance("limits", limits, Limits)
     _check_offers(module, method, energies)
-    problem = make_problem(module, parameters, material, held_stretch, force, field, inputs)
-    _check_single(problem)
+    problem = specimen.single_problem(material, held_stretch, force, field, inputs)
     for entry, drive in zip(module.INPUTS, problem.drives):
         drive.check_window(input_name(entry.name), 0.0, duration)
     times = output_times(time, samples, duration)
     start = initial_values(problem, initial_state, limits)
     trajectory = integrate(problem, start, times, duration, method, rtol, atol, limits, progress)
     numerics = {"method": trajectory.method, "rtol": rtol, "atol": atol, "duration": duration}
-    described = material_of(module, parameters).replace(**material)
-    attributes = run_attributes(problem, described, limits) | numerics
-    if is_equilibrium(module, initial_state):
-        attributes["initial_state"] = EQUILIBRIUM_MEANING
+    attributes = run_attributes(problem, limits) | numerics | start_attributes(module, initial_state)
     return _dataset(problem, times, trajectory, energies, attributes)
 
 
@@ -119,15 +116,6 @@ def _check_offers(module: ModuleType, method: str, energies: bool) -> None:
         check_offers(module, _ENERGIES, "energies=True")
     if getattr(module, "REACTIONS", ()):
         check_offers(module, ("reaction_forces",), "REACTIONS")
-
-
-def _check_single(problem: Problem) -> None:
-    entries = [
-        *zip(problem.model.PARAMETERS, problem.parameters),
-        *zip(problem.model.INPUTS, problem.inputs(0.0)),
-    ]
-    for entry, value in entries:
-        checks.scalar(input_name(entry.name), value, entry.unit)
 
 
 def output_times(time: np.ndarray | None, samples: int | None, duration: float) -> np.ndarray:

@@ -16,15 +16,18 @@ from delagrange.common.progress import Progress, progress_bar
 from delagrange.drives.drive import Drive, Sine
 from delagrange.drives.inputs import (
     ELECTRIC_FIELD,
+    ELECTRICAL,
     FIELD,
     FORCE,
     ElectricalInput,
     Inputs,
+    given_twice,
     has_input,
     input_name,
+    is_zero,
     named_inputs,
 )
-from delagrange.drives.sines import ELECTRICAL_INPUTS, phase_name, sine_names
+from delagrange.drives.sines import PHASE_UNITS, SIZE_UNITS, frequency_axis, sine_names
 from delagrange.engines import engines
 from delagrange.engines.engines import Engine, Numerics
 from delagrange.engines.lanes import Interrupted, Outcome, RunSettings, Sampling, empty_outcome
@@ -32,7 +35,7 @@ from delagrange.engines.step_control import step_control
 from delagrange.engines.tableau import Tableau, tableau
 from delagrange.equilibrium.start import before_the_field, loaded_equilibrium
 from delagrange.model.material import Material
-from delagrange.model.parameters import CHANGEABLE_UNITS, Parameters, material_of
+from delagrange.model.parameters import CHANGEABLE_UNITS
 from delagrange.problem import status as loss
 from delagrange.problem.initial import (
     PREFIX,
@@ -41,17 +44,14 @@ from delagrange.problem.initial import (
     is_equilibrium,
     state_at_start,
 )
-from delagrange.problem.problem import Problem, make_problem
+from delagrange.problem.problem import Problem, Specimen
 from delagrange.problem.status import Limits
 from delagrange.problem.tolerances import check_duration, check_tolerances, check_window
 from delagrange.run.grid import Grid, make_grid
 from delagrange.run.measures import Measures
 from delagrange.run.sampling import make_sampling
 
-INPUT_UNITS: Mapping[str, str] = {"force": "N"} | {
-    name: each.unit for each in ELECTRICAL_INPUTS for name in (each.amplitude, each.bias)
-}
-PHASE_UNITS: Mapping[str, str] = {phase_name(each): "rad" for each in ELECTRICAL_INPUTS}
+INPUT_UNITS: Mapping[str, str] = {"force": "N", **SIZE_UNITS}
 POSITIVE_UNITS: Mapping[str, str] = {"held_stretch": "1", **CHANGEABLE_UNITS, "frequency": "Hz"}
 LARGEST_INPUT = 1e15  # [N] or [V/m]; beyond, squares leave double precision and a run would never end
 SWEEP_UNITS: Mapping[str, str] = {**INPUT_UNITS, **PHASE_UNITS, **POSITIVE_UNITS}
@@ -61,8 +61,7 @@ SWEEP_UNITS: Mapping[str, str] = {**INPUT_UNITS, **PHASE_UNITS, **POSITIVE_UNITS
 class Sweep:
     """A sweep, ready to run."""
 
-    model: ModuleType
-    parameters: Parameters | None
+    specimen: Specimen
     grid: Grid
     drives: Mapping[str, Drive]  # of inputs by name, where they are drives and not values of the grid
     measures: Measures
@@ -70,6 +69,11 @@ class Sweep:
     engine: Engine
     electrical: ElectricalInput = ELECTRIC_FIELD  # which the sine drives
     equilibria: np.ndarray | None = None  # (n_state, *grid.shape but 1 where nothing depends on the axis)
+
+    @property
+    def model(self) -> ModuleType:
+        """The model of all runs."""
+        return self.specimen.model
 
     @property
     def sample_count(self) -> int:
@@ -89,18 +93,13 @@ class Sweep:
         if self.electrical is not ELECTRIC_FIELD:
             field, others = 0.0, others | {self.electrical.name: field}
         held_stretch = values.pop("held_stretch", None)
-        return make_problem(self.model, self.parameters, values, held_stretch, force, field, others)
-
-    @property
-    def material(self) -> Material:
-        """Of the model, before the grid changes it."""
-        return material_of(self.model, self.parameters)
+        return self.specimen.problem(values, held_stretch, force, field, others)
 
     def sampling(self, lanes: slice) -> Sampling | None:
         """When the state of some of the lanes is kept, or None where it is not."""
         values = self.grid.lane_values(lanes)
         return make_sampling(
-            self.measures, self.settings.duration, values["frequency"], values[phase_name(self.electrical)]
+            self.measures, self.settings.duration, values["frequency"], values[self.electrical.phase]
         )
 
     def initial_state(self, lanes: slice, problem: Problem) -> np.ndarray:
@@ -116,7 +115,7 @@ class Sweep:
 
     def field_sampling(self) -> tuple[dict[str, int], Sampling | None]:
         """The samples over the axes of the sine alone, on which their times depend, with the axes' lengths."""
-        name = phase_name(self.electrical)
+        name = self.electrical.phase
         axes = {name: self.grid.axes[name] for name in (name, "frequency") if name in self.grid.axes}
         phase = axes.get(name, self.grid.single.get(name))
         phases, frequencies = (
@@ -127,8 +126,7 @@ class Sweep:
 
 
 def make_sweep(
-    model: ModuleType,
-    parameters: Parameters | None,
+    specimen: Specimen,
     values: Mapping[str, object],
     settings: RunSettings,
     engine: str,
@@ -148,6 +146,7 @@ def make_sweep(
             not in order, a force or held stretch that the model has no place for, a result that is
             too large, or loads without an equilibrium to start at.
     """
+    model, material = specimen.model, specimen.material
     at_rest = is_equilibrium(model, initial)
     given = _with_inputs(model, dict(values), inputs, electrical)
     if given["held_stretch"] is None:
@@ -155,7 +154,7 @@ def make_sweep(
     units = {entry.name: entry.unit for entry in model.INPUTS}
     drives = {name: given.pop(name) for name in (FORCE, *units) if isinstance(given.get(name), Drive)}
     _refuse_arrays(drives, {FORCE: "N", **units})
-    material, others = material_of(model, parameters), (*_NO_MATERIAL, *units)
+    others = (*_NO_MATERIAL, *units)
     material.check_names({name: value for name, value in given.items() if name not in others})
     units |= {**SWEEP_UNITS, **material.units, **initial_units(model)}
     checked = {name: _checked(name, value, units[name], material) for name, value in given.items()}
@@ -163,7 +162,7 @@ def make_sweep(
     frequency = {"frequency": checked.pop("frequency")}  # the last axis
     start = {} if at_rest else checked_initial(model, initial)
     grid = make_grid(checked | start | frequency, units, "frequency")
-    sweep = Sweep(model, parameters, grid, drives, measures, settings, engines.ENGINES[engine], electrical)
+    sweep = Sweep(specimen, grid, drives, measures, settings, engines.ENGINES[engine], electrical)
     sweep.field_sampling()  # refuses what cannot be sampled, before anything runs
     check_memory(model, grid.size, sweep.sample_count)
     for entry, drive in zip(model.INPUTS, sweep.problem(slice(0, 1)).drives):
@@ -180,7 +179,7 @@ def _equilibria(sweep: Sweep) -> np.ndarray:
     Raises:
         ValueError: there is none; the message names the load.
     """
-    idle = {*sine_names(sweep.electrical), "frequency", *(each.name for each in ELECTRICAL_INPUTS)}
+    idle = {*sine_names(sweep.electrical), "frequency", *ELECTRICAL}
     axes = {name: values if name not in idle else values[:1] for name, values in sweep.grid.axes.items()}
     table = replace(sweep, grid=replace(sweep.grid, axes=axes))
     problem = before_the_field(table.problem(slice(0, table.grid.size)))
@@ -203,16 +202,12 @@ def _with_inputs(
         if name in others:
             arguments = ", ".join(sine_names(ELECTRIC_FIELD if name == FIELD else electrical))
             raise ValueError(f"{input_name(name)} is given by {arguments} and frequency here, not by inputs")
-    if FORCE in others and not _is_number_zero(given[FORCE]):
-        raise ValueError("force is given by itself and in inputs as well; give one")
+    if FORCE in others and not is_zero(given[FORCE]):
+        raise given_twice(FORCE, given[FORCE])
     force = {FORCE: given.pop(FORCE)}
-    if FORCE in others or (_is_number_zero(force[FORCE]) and not has_input(model, FORCE)):
+    if FORCE in others or (is_zero(force[FORCE]) and not has_input(model, FORCE)):
         force = {}
     return force | others | given
-
-
-def _is_number_zero(value: object) -> bool:
-    return np.ndim(value) == 0 and not isinstance(value, Drive) and value == 0
 
 
 def _refuse_arrays(drives: Mapping[str, Drive], units: Mapping[str, str]) -> None:
@@ -230,7 +225,7 @@ def _checked(name: str, value: object, unit: str, material: Material) -> float |
     if name in material.units:
         return material.checked(name, value)
     if name == "frequency":
-        value = checks.increasing(name, value, "Hz")
+        return frequency_axis(value)
     check = checks.positive if name in POSITIVE_UNITS else checks.finite
     checked = check(name, value, unit)
     is_input = name not in POSITIVE_UNITS and name not in PHASE_UNITS
@@ -255,8 +250,7 @@ def make_settings(
     Raises:
         ValueError: a value out of range.
     """
-    if not isinstance(limits, Limits):
-        raise ValueError(f"limits must be a delagrange.Limits, got {limits!r}")
+    checks.instance("limits", limits, Limits)
     duration = check_duration(duration)
     rtol, atol = check_tolerances(rtol, atol)
     return RunSettings(

@@ -10,9 +10,10 @@ from scipy.optimize import root
 import delagrange as dl
 from delagrange.analysis.steady.floquet import spectrum
 from delagrange.analysis.steady.shooting import Shooting
-from delagrange.engines.flow import FlowPath, typical_sizes
+from delagrange.engines.flow import FlowPath
 from delagrange.engines.flows import resolve_flow
 from delagrange.equilibrium.continuation import Lost, solve
+from delagrange.problem.coordinate_size import typical_sizes
 from delagrange.problem.dashpots import frozen
 from delagrange.problem.problem import make_problem
 

@@ -18,7 +18,7 @@ from delagrange.analysis.motion.verdict import Verdict, decide, lost
 from delagrange.drives.drive import Drive
 from delagrange.drives.inputs import Inputs
 from delagrange.model.parameters import Parameters
-from delagrange.problem.dashpots import EVOLVING, FROZEN, RELAXED, dashpot_places, is_damped
+from delagrange.problem.dashpots import EVOLVING, FROZEN, RELAXED, is_damped
 from delagrange.problem.status import COMPLETED, Limits
 
 _VIBRATIONS = 8000  # of the fastest small vibration, to follow by default; 8.7 s of the paper's membrane
@@ -122,14 +122,13 @@ def _transient(motion: Motion, given: float | None, periods: int) -> tuple[int, 
 def _relaxation(motion: Motion) -> float:
     """Time [s] in which volumes contract by exp(-30) in each direction, as at the start of the motion.
 
-    The dashpots contract them; what the rest of the Jacobian's trace gives averages out over a motion.
+    Dashpots and a leak of charge contract them; what the rest of the Jacobian's trace gives averages out over a motion.
     """
     pilot = observed(motion, _PILOT)
     if pilot.status != COMPLETED:
         return 0.0
-    places = np.arange(len(motion.start))[dashpot_places(motion.model)]
-    flows = len(places) > 0 and motion.dashpots != FROZEN
-    places = places if flows else motion.moving
+    flowing = motion.moving[2 * motion.model.COORDINATE_COUNT :]
+    places = flowing if flowing.size and motion.dashpots != FROZEN else motion.moving
     slopes = [motion.path.problem.jacobian(time, state) for time, state in zip(pilot.times, pilot.states)]
     contraction = -float(np.mean(np.sum([np.diagonal(slope)[places] for slope in slopes], axis=1)))
     return _CONTRACTION * len(motion.moving) / contraction if contraction > 0 else 0.0

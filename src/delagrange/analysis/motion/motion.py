@@ -13,15 +13,16 @@ from delagrange.analysis.motion.observation import moving_places
 from delagrange.common import checks
 from delagrange.common.units import with_unit
 from delagrange.drives.drive import Drive
-from delagrange.drives.inputs import Inputs
-from delagrange.engines.flow import Flow, FlowPath, drive_numbers, typical_sizes
+from delagrange.drives.inputs import Inputs, input_name
+from delagrange.engines.flow import Flow, FlowPath, drive_numbers
 from delagrange.engines.flows import resolve_flow
 from delagrange.equilibrium.start import starting_state
-from delagrange.model.load import check_offers, load_model
-from delagrange.model.parameters import Parameters, material_of
+from delagrange.model.load import check_offers
+from delagrange.model.parameters import Parameters
+from delagrange.problem.coordinate_size import typical_sizes
 from delagrange.problem.dashpots import FROZEN, frozen
-from delagrange.problem.initial import EQUILIBRIUM_MEANING, is_equilibrium
-from delagrange.problem.problem import Problem, input_name, make_problem
+from delagrange.problem.initial import start_attributes
+from delagrange.problem.problem import Problem, make_specimen
 from delagrange.problem.status import Limits
 from delagrange.problem.tolerances import DURATION_RANGE, check_duration
 from delagrange.run.run_dataset import run_attributes
@@ -86,19 +87,16 @@ def make_motion(
     Raises:
         ValueError: as `delagrange.simulate`; a drive that is neither constant nor a sine; arrays.
     """
-    module = load_model(model, formulation, lateral_dashpot)
-    check_offers(module, ("jacobian",), "the kind of a motion")
+    specimen = make_specimen(model, formulation, lateral_dashpot, parameters)
+    check_offers(specimen.model, ("jacobian",), "the kind of a motion")
     checks.choice("dashpots", dashpots, choices)
     checks.instance("limits", limits, Limits)
     tolerance = checks.within("tolerance", tolerance, "1", *TOLERANCE_RANGE)
-    problem = make_problem(module, parameters, material, held_stretch, force, field, inputs)
-    _check_single(problem, initial_state)
+    problem = specimen.single_problem(material, held_stretch, force, field, inputs)
     start = starting_state(problem, initial_state, limits)
     run = frozen(problem) if dashpots == FROZEN else problem
     path = FlowPath(run, typical_sizes(run), tolerance, limits)
-    attributes = run_attributes(problem, material_of(module, parameters).replace(**material), limits)
-    if is_equilibrium(module, initial_state):
-        attributes["initial_state"] = EQUILIBRIUM_MEANING
+    attributes = run_attributes(problem, limits) | start_attributes(specimen.model, initial_state)
     return Motion(
         path,
         resolve_flow(run, engine),
@@ -125,14 +123,3 @@ def _drive_text(numbers: np.ndarray, unit: str) -> str:
     start = f"{with_unit(bias, unit)} + " if bias else ""
     lag = f" {'+' if phase > 0 else '-'} {abs(phase):.4g} rad" if phase else ""
     return f"{start}{with_unit(amplitude, unit)} sin(2π {frequency:g} Hz t{lag})"
-
-
-def _check_single(problem: Problem, initial_state: Mapping[str, float] | str | None) -> None:
-    """Refuse arrays: one motion is judged at a time."""
-    model = problem.model
-    entries = [*zip(model.PARAMETERS, problem.parameters), *zip(model.INPUTS, problem.inputs(0.0))]
-    for entry, value in entries:
-        checks.scalar(input_name(entry.name), value, entry.unit)
-    for entry in model.STATE if isinstance(initial_state, Mapping) else ():
-        if entry.name in initial_state:
-            checks.scalar(f"initial_state {entry.name}", initial_state[entry.name], entry.unit)

@@ -10,7 +10,7 @@ import numpy as np
 from delagrange.analysis.forcing import Forcing
 from delagrange.common.progress import Progress
 from delagrange.engines.flow import Flow, FlowPath
-from delagrange.problem.dashpots import FROZEN
+from delagrange.problem.dashpots import FROZEN, dashpot_places
 from delagrange.problem.status import COMPLETED
 
 _PARTS = 40  # pieces of a run, between which the progress is shown
@@ -43,8 +43,8 @@ class Observation:
 
 def moving_places(path: FlowPath, dashpots: str) -> np.ndarray:
     """Places in the state of what moves: all of it, or without the dashpots where these are frozen."""
-    model = path.problem.model
-    return np.arange(2 * model.COORDINATE_COUNT if dashpots == FROZEN else len(model.STATE))
+    places = np.arange(len(path.weights))
+    return np.delete(places, dashpot_places(path.problem.model)) if dashpots == FROZEN else places
 
 
 def first_tangent(path: FlowPath, moving: np.ndarray) -> np.ndarray:

@@ -8,13 +8,12 @@ import numpy as np
 
 from delagrange.common import checks
 from delagrange.drives.inputs import ELECTRIC_FIELD
-from delagrange.equilibrium.statics import Statics, typical_electrical
+from delagrange.equilibrium.statics import Statics, input_place
 from delagrange.problem.problem import Problem
 
 _NEGLIGIBLE = (
     1e-9  # of the typical force and the electric one: an edge without load carries zero up to round-off
 )
-_LARGE = 1e6  # typical charges
 BREAKDOWN_DEFINITION = "true field reaches breakdown_field / (thickness stretch)^(breakdown_exponent / 2)"
 
 
@@ -46,39 +45,11 @@ def thickness_stretch(statics: Statics, x: np.ndarray) -> float:
 
 def true_field(statics: Statics, x: np.ndarray) -> float:
     """Voltage over the thickness as it is [V/m]."""
-    electrical = statics.electrical
-    value = _electrical_value(statics, x)
-    nominal = value if electrical is ELECTRIC_FIELD else value * _field_by_charge(statics, x)
-    return nominal / thickness_stretch(statics, x)
-
-
-def _electrical_value(statics: Statics, x: np.ndarray) -> float:
-    """The nominal field [V/m], or charge density [C/m^2]."""
-    names = [entry.name for entry in statics.problem.model.INPUTS]
-    return float(statics.arguments(x)[1][names.index(statics.electrical.name)])
-
-
-def _field_by_charge(statics: Statics, x: np.ndarray) -> float:
-    """Nominal field over nominal charge density [V m/C] under charge control.
-
-    The energy of the charge is its square times volume / 2 times this, whatever permittivity depends on: its work
-    is the voltage times the charge. Evaluated at so large a charge that the elastic energy is no part of it.
-    """
-    state, inputs, parameters = statics.arguments(x)
-    names = [entry.name for entry in statics.problem.model.INPUTS]
-    charge = _LARGE * typical_electrical(statics)
-    energies = []
-    for value in (charge, 0.0):
-        charged = tuple(
-            value if name == statics.electrical.name else each for name, each in zip(names, inputs)
-        )
-        energies.append(float(statics.problem.model.potential_energy(state, charged, parameters)))
-    return 2 * (energies[0] - energies[1]) / (reference_volume(statics) * charge**2)
-
-
-def reference_volume(statics: Statics) -> float:
-    """Volume 8 L_1 L_2 H [m^3]."""
-    return 8 * float(np.prod(_half_lengths(statics))) * material(statics.problem, "half_thickness")
+    if statics.electrical is ELECTRIC_FIELD:
+        nominal = statics.arguments(x)[1][input_place(statics.problem, statics.electrical.name)]
+    else:
+        nominal = statics.problem.model.electrodes(*statics.arguments(x))[0]
+    return float(nominal) / thickness_stretch(statics, x)
 
 
 def edge_forces(statics: Statics, x: np.ndarray) -> np.ndarray:
@@ -107,9 +78,8 @@ def tension_margin(statics: Statics, x: np.ndarray, criteria: Criteria) -> float
 
 def negligible_force(statics: Statics, x: np.ndarray) -> float:
     """Force [N] that counts as none, beside those of springs and field that balance there."""
-    without = x.copy()
-    without[-1] = 0.0
-    electric = np.max(np.abs(edge_forces(statics, x) - edge_forces(statics, without)))
+    without = edge_forces(statics, statics.without_electricity(x))
+    electric = np.max(np.abs(edge_forces(statics, x) - without))
     return _NEGLIGIBLE * (statics.typical_force + float(electric))
 
 

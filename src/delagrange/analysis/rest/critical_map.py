@@ -11,6 +11,7 @@ from delagrange.analysis.rest.dynamic_pull_in import dynamic_pull_in
 from delagrange.analysis.rest.pull_in import critical_names, pull_in
 from delagrange.common import checks
 from delagrange.drives.inputs import ELECTRICAL
+from delagrange.model.load import load_model
 from delagrange.problem.dashpots import FROZEN, RELAXED
 from delagrange.run.run_dataset import variable
 
@@ -18,12 +19,19 @@ SLOW, FAST, SUDDEN = "static, dashpots relaxed", "static, dashpots frozen", "dyn
 _CRITERIA = ("breakdown_field", "breakdown_exponent", "smallest_tension")
 
 
-def critical_map(model: str | ModuleType, *, force: np.ndarray, **options: object) -> xr.Dataset:
+def critical_map(
+    model: str | ModuleType,
+    *,
+    force: np.ndarray,
+    formulation: str | None = None,
+    lateral_dashpot: str | None = None,
+    **options: object,
+) -> xr.Dataset:
     """Critical fields over an increasing array of forces.
 
     Args:
         force: on each loaded edge [N].
-        options: single values, as for `pull_in` without `dashpots`.
+        formulation, lateral_dashpot, options: single values, as for `pull_in` without `dashpots`.
 
     Returns:
         Dataset over (`load`, `force`): `field` [V/m], `voltage`, `stretch` and `found` for a field that grows
@@ -37,8 +45,9 @@ def critical_map(model: str | ModuleType, *, force: np.ndarray, **options: objec
     """
     force = checks.increasing("force", force, "N")
     dynamic_options = {name: value for name, value in options.items() if name not in _CRITERIA}
-    slow, fast = (pull_in(model, force=force, dashpots=dashpots, **options) for dashpots in (RELAXED, FROZEN))
-    sudden = dynamic_pull_in(model, force=force, dashpots=FROZEN, resolution=None, **dynamic_options)
+    module = load_model(model, formulation, lateral_dashpot)
+    slow, fast = (pull_in(module, force=force, dashpots=dashpots, **options) for dashpots in (RELAXED, FROZEN))
+    sudden = dynamic_pull_in(module, force=force, dashpots=FROZEN, resolution=None, **dynamic_options)
     electrical = ELECTRICAL[fast.attrs["varied_input"]]
     first = "stretch" if "stretch" in fast else fast.attrs["coordinates"].split(", ")[0]
     shared = [name for name in (electrical.argument, "voltage", first, "found") if name in fast]

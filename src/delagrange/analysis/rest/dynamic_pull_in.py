@@ -14,16 +14,16 @@ from delagrange.analysis.rest.criteria import material
 from delagrange.analysis.rest.energy_barrier import barrier_at_start_energy
 from delagrange.analysis.rest.sudden_field import ATOL, FINEST, RTOL, Bracket, bracket_by_integration
 from delagrange.common import checks
-from delagrange.drives.inputs import ELECTRIC_FIELD, ElectricalInput, Inputs, electrical_input
+from delagrange.drives.inputs import CURRENT_DENSITY, ELECTRIC_FIELD, Inputs
 from delagrange.engines.engines import AUTO, ENGINES
 from delagrange.equilibrium.branches import at_zero_field, connected_pieces
 from delagrange.equilibrium.continuation import Lost, parameter_of
 from delagrange.equilibrium.pieces import FOLD, Piece, point_at
-from delagrange.equilibrium.statics import Statics, make_statics
+from delagrange.equilibrium.statics import Statics
 from delagrange.equilibrium.vibration import vibration
 from delagrange.model.load import check_offers
 from delagrange.model.parameters import Parameters
-from delagrange.problem.dashpots import EVOLVING, FROZEN, RELAXED, is_damped
+from delagrange.problem.dashpots import EVOLVING, FROZEN, RELAXED, is_damped, leak_rate
 from delagrange.problem.problem import Problem
 from delagrange.problem.status import Limits
 from delagrange.problem.tolerances import check_duration
@@ -36,6 +36,8 @@ _FINE, _COARSE = (
     1e-7,
     1e-2,
 )  # resolutions that a map takes: of what integration gives, and of what energy gives
+_LEAKING = 20.0  # times in which a charge leaks to 1/e, after which it rests
+_MOST_LEAKING = 50.0  # of the time for the vibration
 _BEYOND = 1.05  # of the static pull-in: there nothing holds the membrane
 ENERGY, INTEGRATION = "energy", "integration"
 FOUND, SNAP, NO_BARRIER, NOT_LOST, FORCE_ALONE, NO_START = (
@@ -127,7 +129,8 @@ def dynamic_pull_in(
         dashpots: "frozen" as in the reference state or `initial_state`; or "evolving" from there (or from rest
             with start "equilibrium"): by integration alone.
         start: "reference", in the reference state or `initial_state`; or "equilibrium", under the force alone.
-        duration: of each run [s]; left out, 200 periods of the slowest vibration at the start.
+        duration: of each run [s]; left out, 200 periods of the slowest vibration at the start, and long enough for a
+            charge that a current feeds to come to rest.
         resolution: width of the bracket of the integration over the field in it, 1e-11 to 1e-2. None, as a map
             has it: 1e-7, and where energy gives the field 1e-2 with runs of 20 periods, which tell what becomes of
             a membrane that passes the barrier and no more.
@@ -138,14 +141,14 @@ def dynamic_pull_in(
         Dataset over the arrays given: `field` [V/m]; `stretch` of the unstable equilibrium there (dashpots as at
         the start), which a motion of one coordinate reaches exactly and has to pass; `method`;
         `field_by_energy` (one coordinate) or `field_by_energy_bound`, below which no motion gets over the
-        barrier (two coordinates); `field_by_integration` with `bracket_width`; `static_field`; `found`. Under
-        charge control the charge [C/m^2] stands for the field: `nominal_charge_density`,
-        `nominal_charge_density_by_integration`, `static_nominal_charge_density` and so on, and there is no voltage.
+        barrier (two coordinates); `field_by_integration` with `bracket_width`; `static_field`; `found`. A charge
+        [C/m^2] or current [A/m^2] that drives a model stands for the field: `nominal_charge_density`,
+        `nominal_charge_density_by_integration`, `static_nominal_charge_density` and so on, and there is no voltage;
+        a current gives no energy.
 
     Raises:
         ValueError: something given makes no sense; the message names it, its value, its unit and what is allowed.
     """
-    limits = Limits() if limits is None else limits
     checks.choice("dashpots", dashpots, (FROZEN, EVOLVING))
     checks.choice("start", start, (REFERENCE, EQUILIBRIUM))
     checks.choice("engine", engine, (AUTO, *ENGINES))
@@ -169,7 +172,7 @@ def dynamic_pull_in(
 
 
 def _critical(cases: Cases, problem: Problem, how: _Integration) -> Critical:
-    frozen = make_statics(problem, FROZEN, cases.initial_state, cases.limits)
+    frozen = cases.statics(problem, FROZEN)
     conservative = how.dashpots == FROZEN and not is_damped(frozen.problem)
     exact = conservative and cases.model.COORDINATE_COUNT == 1
     method = ENERGY if exact else INTEGRATION
@@ -204,15 +207,28 @@ def _start_state(cases: Cases, problem: Problem, frozen: Statics, how: _Integrat
     """(n_state,), at rest."""
     if how.start == REFERENCE:
         return frozen.rest
-    flows = make_statics(problem, RELAXED, cases.initial_state, cases.limits)
+    flows = cases.statics(problem, RELAXED)
     statics = flows if how.dashpots == EVOLVING else frozen
     return statics.state(at_zero_field(statics))
 
 
 def _default_duration(statics: Statics, state: np.ndarray, periods: int) -> float:
+    """So many periods of the slowest vibration, and until a charge that a current feeds has come to rest.
+
+    Raises:
+        ValueError: that takes far longer.
+    """
     rates = vibration(statics, statics.x_of(state, 0.0)).rates
-    slowest = np.min(np.abs(rates))
-    return float(periods * 2 * np.pi / slowest)
+    vibrating = float(periods * 2 * np.pi / np.min(np.abs(rates)))
+    if statics.charge is None:
+        return vibrating
+    leak = leak_rate(statics.problem)
+    if _LEAKING / leak > _MOST_LEAKING * vibrating:
+        raise ValueError(
+            f"duration [s] must be given: the charge leaks within {1 / leak:.3g} s, far slower than the membrane "
+            "vibrates, so that no current is sudden and pull_in says what it stands"
+        )
+    return max(vibrating, _LEAKING / leak)
 
 
 def _status(bracket: Bracket, exact: bool, barrier: bool) -> str:
@@ -226,7 +242,7 @@ def _status(bracket: Bracket, exact: bool, barrier: bool) -> str:
 def _variables(cases: Cases, found: list[Critical], dashpots: str) -> dict[str, tuple]:
     dimensions, shape = tuple(cases.grid.axes), cases.grid.shape
     columns = _critical_numbers(cases, found) | _numbers_about(cases, found)
-    if dashpots == FROZEN:
+    if dashpots == FROZEN and cases.electrical is not CURRENT_DENSITY:
         columns |= _energy_numbers(cases, found)
     data = {
         name: variable(dimensions, np.array(values, dtype=float).reshape(shape), unit, long_name)
@@ -245,7 +261,7 @@ _Columns = dict[str, tuple[str, str, list[float] | np.ndarray]]  # unit, long na
 
 
 def _critical_numbers(cases: Cases, found: list[Critical]) -> _Columns:
-    electrical: ElectricalInput = electrical_input(cases.model)
+    electrical = cases.electrical
     fields = np.array([critical.field for critical in found])
     data = {electrical.argument: (electrical.unit, f"critical {electrical.text} of dynamic pull-in", fields)}
     if electrical is ELECTRIC_FIELD:
@@ -255,7 +271,7 @@ def _critical_numbers(cases: Cases, found: list[Critical]) -> _Columns:
 
 
 def _numbers_about(cases: Cases, found: list[Critical]) -> _Columns:
-    electrical, first = electrical_input(cases.model), first_coordinate(cases.model)
+    electrical, first = cases.electrical, first_coordinate(cases.model)
     name, text, unit = electrical.argument, electrical.text, electrical.unit
     return {
         first: (
@@ -279,7 +295,7 @@ def _numbers_about(cases: Cases, found: list[Critical]) -> _Columns:
 
 
 def _energy_numbers(cases: Cases, found: list[Critical]) -> _Columns:
-    electrical = electrical_input(cases.model)
+    electrical = cases.electrical
     bound = "" if cases.model.COORDINATE_COUNT == 1 else "_bound"
     name = f"{electrical.argument}_by_energy{bound}"
     return {name: (electrical.unit, name.replace("_", " "), [critical.field_by_energy for critical in found])}

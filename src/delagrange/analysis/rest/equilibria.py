@@ -1,4 +1,4 @@
-"""Where a membrane rests under constant force and field or charge: all branches, their stability, where they end."""
+"""Where a membrane rests under constant force and field, charge or current: all branches, and where they end."""
 
 from __future__ import annotations
 
@@ -12,21 +12,20 @@ import xarray as xr
 from delagrange.analysis.rest.arguments import (
     FROZEN_MEANING,
     RELAXED_MEANING,
-    electrical_name,
+    Cases,
     make_cases,
     single_case,
-    without_electrical,
 )
 from delagrange.analysis.rest.criteria import Criteria, material
 from delagrange.analysis.rest.equilibria_dataset import branch_variables, curve_variables, limit_variables
 from delagrange.analysis.rest.equilibria_grid import grid_variables
 from delagrange.common import checks
-from delagrange.drives.inputs import CHARGE_DENSITY, Inputs
+from delagrange.drives.inputs import ELECTRIC_FIELD, Inputs
 from delagrange.equilibrium.branches import all_pieces, limit_points, why_not_from_unloaded
 from delagrange.equilibrium.pieces import Piece
-from delagrange.equilibrium.statics import Statics, make_statics
-from delagrange.model.load import load_model
+from delagrange.equilibrium.statics import Statics
 from delagrange.model.parameters import Parameters
+from delagrange.problem.problem import Problem
 from delagrange.problem.status import Limits
 from delagrange.run.run_dataset import variable
 
@@ -59,20 +58,22 @@ def equilibria(
     limits: Limits | None = None,
     **material_changes: float,
 ) -> xr.Dataset:
-    """Every equilibrium of a membrane under a constant force, over the field or, under charge control, the charge.
+    """Every equilibrium of a membrane under a constant force, over the field, or the charge or current that drives it.
 
     Curves are followed by pseudo-arclength continuation from the unloaded membrane and from whatever Newton's
     method finds from a grid of stretches at several fields from zero to the largest. A `branch` is a part of a
     curve between two limit points, so that it has one equilibrium at most at each field; branch 0 is the one
-    that the unloaded membrane reaches under the force alone. The field enters squared: its sign does not matter.
+    that the unloaded membrane reaches under the force alone. The field enters squared: its sign does not matter. Under
+    a current the charge flows until as much leaks as the current feeds; stability is that under the same current.
     Edge forces are those of springs and field as they are: with the formulation "as_printed", whose potential is
     another, they do not balance the applied force.
 
     Args:
         force: on each loaded edge [N].
         inputs: of any other input but the field by its name, as {"force_2": 0.3}; each grows from zero before
-            the field, in the order of the model's inputs. Under charge control also the charge, instead of a
-            field: {"nominal_charge_density": values} [C/m^2], a number or an increasing array.
+            the field, in the order of the model's inputs. Also the charge or current of a model that is driven by
+            one, instead of a field: {"nominal_charge_density": values} [C/m^2] or {"nominal_current_density":
+            values} [A/m^2], a number or an increasing array.
         field: nominal, voltage over reference thickness [V/m]; a number or an increasing array, also none.
         voltage: instead of the field, [V].
         dashpots: "relaxed", at rest as well; or "frozen", as in the reference state or `initial_state`.
@@ -90,47 +91,41 @@ def equilibria(
         `branch`: why it ends at either end. The curves themselves over `point`, limit points over
         `limit_point`. A single field has no dimension. No equilibrium at all is an answer: no branch, or NaN.
         Where no branch begins at the unloaded membrane, the attribute `unloaded_lost` says why.
-        Under charge control the charge stands for the field in all these names, as `nominal_charge_density`
-        and `limit_nominal_charge_density` [C/m^2], and there are no voltages.
+        A charge or current stands for the field in all these names, as `nominal_charge_density` and
+        `limit_nominal_charge_density` [C/m^2], and there are no voltages.
 
     Raises:
         ValueError: something given makes no sense; the message names it, its value, its unit and what is allowed.
     """
-    limits = Limits() if limits is None else limits
     values = {"force": force, "held_stretch": held_stretch, **material_changes}
-    module = load_model(model, formulation, lateral_dashpot)
-    others, charge = without_electrical(module, inputs)
-    cases = make_cases(module, None, None, parameters, initial_state, limits, values, others)
+    given = ("field", field) if voltage is None else ("voltage", voltage)
+    cases = make_cases(
+        model, formulation, lateral_dashpot, parameters, initial_state, limits, values, inputs, given
+    )
     problem = single_case(cases, "equilibria").first_problem()
-    statics = make_statics(problem, dashpots, cases.initial_state, limits)
     criteria = Criteria(breakdown_field, breakdown_exponent, smallest_tension)
-    fields = _fields(field, voltage, charge, statics)
-    pieces = all_pieces(statics, float(np.max(np.abs(fields))))
-    found = Found(statics, pieces, criteria)
+    fields = _fields(cases, problem, field, voltage)
+    largest = float(np.max(np.abs(fields)))
+    statics = cases.statics(problem, dashpots, largest)
+    found = Found(statics, all_pieces(statics, largest), criteria)
     return _dataset(found, fields, cases.coordinates(), cases.attributes(dashpots))
 
 
-def _fields(field: object, voltage: object, charge: object, statics: Statics) -> np.ndarray:
-    """Values of the electrical input, fields [V/m] or charges [C/m^2], of no or one dimension.
+def _fields(cases: Cases, problem: Problem, field: object, voltage: object) -> np.ndarray:
+    """Values of the electrical input, fields [V/m], charges [C/m^2] or currents [A/m^2], of no or one dimension.
 
     Raises:
-        ValueError: both given or none, or values that are not finite and increasing.
+        ValueError: none given, or field and voltage, or values that are not finite and increasing.
     """
-    if electrical_name(statics.problem.model, field if voltage is None else voltage) is CHARGE_DENSITY:
-        return _charges(charge)
-    if (field is None) == (voltage is None):
-        given = "neither" if field is None else "both"
+    electrical, name, values = cases.electrical, cases.given.name, cases.given.values
+    if electrical is ELECTRIC_FIELD and (values is None or (field is not None and voltage is not None)):
+        given = "neither" if values is None else "both"
         raise ValueError(f"either field [V/m] or voltage [V] must be given, got {given}")
-    name, value, unit = ("field", field, "V/m") if voltage is None else ("voltage", voltage, "V")
-    thickness = 1.0 if voltage is None else 2 * material(statics.problem, "half_thickness")
-    return _increasing(name, value, unit) / thickness
-
-
-def _charges(charge: object) -> np.ndarray:
-    name, unit = CHARGE_DENSITY.name, CHARGE_DENSITY.unit
-    if charge is None:
-        raise ValueError(f"inputs {name} [{unit}] must be given, got none")
-    return _increasing(f"inputs {name}", charge, unit)
+    if values is None:
+        raise ValueError(f"{name} [{electrical.unit}] must be given, got none")
+    if name == "voltage":
+        return _increasing(name, values, "V") / (2 * material(problem, "half_thickness"))
+    return _increasing(name, values, electrical.unit)
 
 
 def _increasing(name: str, value: object, unit: str) -> np.ndarray:

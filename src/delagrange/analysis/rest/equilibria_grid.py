@@ -46,7 +46,7 @@ def grid_variables(
 ) -> dict[str, tuple]:
     """Variables over (field, branch), or (branch,) where `over` is empty.
 
-    fields: (n_fields,), [V/m], or charges [C/m^2]
+    fields: (n_fields,), [V/m], or charges [C/m^2] or currents [A/m^2]
     """
     model, measures = statics.problem.model, _measures(statics.electrical)
     shape = (len(fields), len(pieces))
@@ -54,9 +54,9 @@ def grid_variables(
     values |= {name: np.full(shape, np.nan) for name in measures}
     values |= {name: np.zeros(shape, dtype=bool) for name in _FLAGS}
     values["stability"] = np.full(shape, NO_EQUILIBRIUM, dtype=object)
-    for place, field in np.ndenumerate(np.broadcast_to(np.abs(fields)[:, None], shape)):
+    for place, field in np.ndenumerate(np.broadcast_to(fields[:, None], shape)):
         piece = pieces[place[1]]
-        if piece.covers(field):
+        if piece.covers(abs(field)):
             for name, value in _equilibrium(statics, piece, criteria, float(field)).items():
                 values[name][place] = value
     squeezed = values if over else {name: array[0] for name, array in values.items()}
@@ -76,14 +76,14 @@ def _measures(electrical: ElectricalInput) -> dict[str, tuple[str, str, str]]:
 
 def _equilibrium(statics: Statics, piece: Piece, criteria: Criteria, field: float) -> dict[str, object]:
     """All that is said of one equilibrium."""
-    x = point_at(statics, piece, field).x
+    x = point_at(statics, piece, abs(field)).x
     limit = piece.high if piece.upper_end == FOLD else np.nan
     forces = edge_forces(statics, x)
     names = [entry.name for entry in statics.problem.model.STATE]
-    return dict(zip(names, statics.state(x))) | {
+    return dict(zip(names, statics.signed_state(x, field))) | {
         "stability": _stability(statics, piece, x),
-        "margin": limit - field,
-        "relative_margin": (limit - field) / limit,
+        "margin": limit - abs(field),
+        "relative_margin": (limit - abs(field)) / limit,
         "edge_force_1": forces[0],
         "edge_force_2": forces[1],
         "thickness_stretch": thickness_stretch(statics, x),

@@ -12,17 +12,15 @@ from delagrange.analysis.rest.arguments import (
     FROZEN_MEANING,
     RELAXED_MEANING,
     Cases,
-    electrical_name,
     make_cases,
-    without_electrical,
 )
 from delagrange.analysis.rest.modes_dataset import modes_variables
 from delagrange.common import checks
-from delagrange.drives.inputs import CHARGE_DENSITY, Inputs
+from delagrange.drives.inputs import CURRENT_DENSITY, Inputs
 from delagrange.equilibrium.branches import connected_pieces
 from delagrange.equilibrium.continuation import Lost
 from delagrange.equilibrium.pieces import FOLD, Piece, point_at
-from delagrange.equilibrium.statics import Statics, make_statics
+from delagrange.equilibrium.statics import Statics
 from delagrange.equilibrium.vibration import (
     Spectrum,
     growing_directions,
@@ -30,7 +28,6 @@ from delagrange.equilibrium.vibration import (
     stability_name,
     vibration,
 )
-from delagrange.model.load import load_model
 from delagrange.model.parameters import Parameters
 from delagrange.problem.dashpots import FROZEN, RELAXED, is_damped
 from delagrange.problem.problem import Problem
@@ -55,7 +52,7 @@ def modes(
     limits: Limits | None = None,
     **material_changes: float | np.ndarray,
 ) -> xr.Dataset:
-    """Natural frequencies about the equilibrium that the unloaded membrane reaches under force, then field or charge.
+    """Natural frequencies about the equilibrium that the unloaded membrane reaches under force, then field.
 
     Each of force, field, held stretch and material may be a one-dimensional array, and is then a dimension
     (the field the last).
@@ -63,16 +60,17 @@ def modes(
     Args:
         force: on each loaded edge [N].
         inputs: of any other input but the field by its name, as {"force_2": 0.3}, numbers or arrays; each grows
-            from zero before the field, in the order of the model's inputs. Under charge control also the charge,
-            instead of a field: {"nominal_charge_density": values} [C/m^2], and it is the last dimension.
+            from zero before the field, in the order of the model's inputs. Also the charge or current of a model
+            that is driven by one, instead of a field, as for `equilibria`; it is the last dimension.
         field: constant nominal field [V/m], zero if left out; its sign does not matter.
         dashpots: "frozen", as in the reference state or `initial_state`: no damping at all; or "relaxed", the
-            equilibrium has relaxed and the dashpots flow as the membrane vibrates, which damps it.
+            equilibrium has relaxed and the dashpots flow as the membrane vibrates, which damps it. Under a current
+            the charge flows in either case, and all that damps is counted.
         others: as in `equilibria`.
 
     Returns:
         Dataset over (the arrays given, `mode`): `frequency` [Hz], ascending; `resonant_field_frequency` [Hz], of
-        a field without bias that excites the mode (under charge control `resonant_charge_frequency`, of the charge);
+        a field without bias that excites the mode (or `resonant_charge_frequency`, `resonant_current_frequency`);
         `shape` (`coordinate`, `mode`); `growth_rate` [1/s] where a mode grows instead; with relaxed dashpots
         `decay_rate` [1/s], and `relaxation_rate` of what decays without vibrating. The state variables and `status`
         say about which equilibrium, or why there is none (NaN).
@@ -80,54 +78,53 @@ def modes(
     Raises:
         ValueError: something given makes no sense; the message names it, its value, its unit and what is allowed.
     """
-    limits = Limits() if limits is None else limits
     checks.choice("dashpots", dashpots, (FROZEN, RELAXED))
     values = {"force": force, "held_stretch": held_stretch, **material_changes}
-    module = load_model(model, formulation, lateral_dashpot)
-    others, charge = without_electrical(module, inputs)
-    cases = make_cases(module, None, None, parameters, initial_state, limits, values, others)
-    electrical = electrical_name(module, field)
-    name, fields = (f"inputs {electrical.name}", charge) if electrical is CHARGE_DENSITY else ("field", field)
-    fields = np.asarray(checks.finite(name, 0.0 if fields is None else fields, electrical.unit), dtype=float)
+    cases = make_cases(
+        model, formulation, lateral_dashpot, parameters, initial_state, limits, values, inputs, ("field", field)
+    )
+    electrical, given = cases.electrical, cases.given
+    fields = 0.0 if given.values is None else given.values
+    fields = np.asarray(checks.finite(given.name, fields, electrical.unit), dtype=float)
     if fields.ndim:
-        fields = checks.distinct(name, fields, electrical.unit)
+        fields = checks.distinct(given.name, fields, electrical.unit)
+    damped = dashpots == RELAXED or electrical is CURRENT_DENSITY
     spectra = [
         spectrum
         for problem in cases.problems()
-        for spectrum in _spectra(cases, problem, dashpots, np.atleast_1d(np.abs(fields)))
+        for spectrum in _spectra(cases, problem, dashpots, np.atleast_1d(fields))
     ]
     over = (electrical.argument,) if fields.ndim else ()
     dimensions = (*cases.grid.axes, *over)
     along = variable(over, fields, electrical.unit, electrical.long_name, electrical.symbol)
     return xr.Dataset(
-        modes_variables(
-            cases.model, spectra, dimensions, (*cases.grid.shape, *fields.shape), dashpots == RELAXED
-        ),
+        modes_variables(cases.model, spectra, dimensions, (*cases.grid.shape, *fields.shape), damped),
         coords=cases.coordinates() | {electrical.argument: along},
         attrs=cases.attributes(dashpots)
         | {"dashpots_meaning": f"{FROZEN_MEANING}; {RELAXED_MEANING}, and flow as the membrane vibrates"}
-        | ({"damping_meaning": _UNDAMPED} if dashpots == FROZEN and is_damped(cases.first_problem()) else {}),
+        | ({"damping_meaning": _UNDAMPED} if not damped and is_damped(cases.first_problem()) else {}),
     )
 
 
 def _spectra(cases: Cases, problem: Problem, dashpots: str, fields: np.ndarray) -> list[Spectrum]:
-    """The spectrum at each field, or charge."""
-    statics = make_statics(problem, dashpots, cases.initial_state, cases.limits)
+    """The spectrum at each field, or charge or current."""
+    largest = float(np.max(np.abs(fields)))
+    statics = cases.statics(problem, dashpots, largest)
     try:
-        piece = connected_pieces(statics, float(np.max(fields)))[0]
+        piece = connected_pieces(statics, largest)[0]
     except Lost as reason:
         return [_nothing(statics, f"no equilibrium: {reason}")] * len(fields)
     return [_spectrum(statics, piece, float(field)) for field in fields]
 
 
 def _spectrum(statics: Statics, piece: Piece, field: float) -> Spectrum:
-    if not piece.covers(field):
+    if not piece.covers(abs(field)):
         what = "beyond the limit point" if piece.upper_end == FOLD else piece.upper_end
         return _nothing(statics, f"no equilibrium: {what} at {piece.high:.7g} {statics.electrical.unit}")
-    x = point_at(statics, piece, field).x
+    x = point_at(statics, piece, abs(field)).x
     count, states = statics.problem.model.COORDINATE_COUNT, len(statics.rest)
     relaxation = np.full(states, np.nan)
-    if statics.relaxed:
+    if statics.flowing.size:
         vibrating, real = relaxing_vibration(statics, x)
         relaxation[: len(real)] = real
     else:
@@ -137,7 +134,7 @@ def _spectrum(statics: Statics, piece: Piece, field: float) -> Spectrum:
     rates[: len(vibrating.rates)] = vibrating.rates
     shapes[:, : len(vibrating.rates)] = vibrating.shapes
     status = stability_name(statics, growing_directions(statics, x))
-    return Spectrum(status, statics.state(x), rates, shapes, relaxation)
+    return Spectrum(status, statics.signed_state(x, field), rates, shapes, relaxation)
 
 
 def _nothing(statics: Statics, status: str) -> Spectrum:

@@ -8,13 +8,13 @@ from types import ModuleType
 import numpy as np
 
 from delagrange.analysis.rest.arguments import stretch_alias
-from delagrange.drives.inputs import ElectricalInput, electrical_input
+from delagrange.drives.inputs import ELECTRICAL, ElectricalInput, electrical_input
 from delagrange.equilibrium.vibration import STABILITY_MEANING, Spectrum
 from delagrange.run.run_dataset import variable
 
 _DOUBLING = (
-    "the {text} enters squared, and ({E} sin 2 pi f t)^2 = {E}^2 (1 - cos 4 pi f t) / 2: a {text} at f without bias "
-    "drives at 2 f, so that a mode of frequency f_n resonates at f = f_n / 2; beside a bias B the {text} has the "
+    "the {squared} enters squared, and ({E} sin 2 pi f t)^2 = {E}^2 (1 - cos 4 pi f t) / 2: a {text} at f without bias "
+    "drives at 2 f, so that a mode of frequency f_n resonates at f = f_n / 2; beside a bias B the {squared} has the "
     "part 2 B {E} sin 2 pi f t too, which drives at f, and f = f_n resonates as well, as it does for a force"
 )
 _ROUND_OFF = "to about 1e-15 of 2 pi times the highest natural frequency"
@@ -42,7 +42,8 @@ def modes_variables(
 def _frequencies(
     frequency: np.ndarray, dimensions: tuple[str, ...], electrical: ElectricalInput
 ) -> dict[str, tuple]:
-    stem, explanation = electrical.stem, _DOUBLING.format(text=electrical.stem, E=electrical.symbol)
+    stem, squared = electrical.stem, ELECTRICAL[electrical.squared]
+    explanation = _DOUBLING.format(text=stem, squared=squared.stem, E=squared.symbol)
     return {
         "frequency": variable(dimensions, frequency, "Hz", "natural frequency", "f_n"),
         f"resonant_{stem}_frequency": variable(

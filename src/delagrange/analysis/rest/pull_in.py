@@ -26,11 +26,11 @@ from delagrange.analysis.rest.criteria import (
     true_field,
 )
 from delagrange.common import checks
-from delagrange.drives.inputs import ELECTRIC_FIELD, ElectricalInput, Inputs, electrical_input
+from delagrange.drives.inputs import ELECTRIC_FIELD, ElectricalInput, Inputs
 from delagrange.equilibrium.branches import LIMIT_MEANING, connected_pieces, limit_points, stable_until
 from delagrange.equilibrium.continuation import Lost, Point, parameter_of
 from delagrange.equilibrium.pieces import FOLD, Piece, locate_on
-from delagrange.equilibrium.statics import Statics, make_statics
+from delagrange.equilibrium.statics import Statics
 from delagrange.model.parameters import Parameters
 from delagrange.problem.dashpots import FROZEN, RELAXED
 from delagrange.problem.status import Limits
@@ -109,21 +109,21 @@ def pull_in(
         Dataset over the arrays given: `field` [V/m], `voltage`, `stretch` and the state variables at the limit
         point (NaN without one), `true_field`; `found`, the kind of limit or why there is none; `highest_field`,
         up to which the equilibrium goes; `loss_of_tension_field` and `breakdown_field_nominal`, the fields at which
-        those happen on the way (NaN: not before); `first_limit`, whichever comes first. Under charge control the
-        charge [C/m^2] stands for the field: `nominal_charge_density`, `highest_nominal_charge_density`,
-        `loss_of_tension_nominal_charge_density`, `breakdown_nominal_charge_density`; and there is no voltage.
+        those happen on the way (NaN: not before); `first_limit`, whichever comes first. A charge [C/m^2] or current
+        [A/m^2] that drives a model stands for the field: `nominal_charge_density`,
+        `highest_nominal_charge_density`, `loss_of_tension_nominal_charge_density`,
+        `breakdown_nominal_charge_density`; and there is no voltage. A current grows slowly against its leak, too.
 
     Raises:
         ValueError: something given makes no sense; the message names it, its value, its unit and what is allowed.
     """
-    limits = Limits() if limits is None else limits
     values = {"force": force, "held_stretch": held_stretch, **material_changes}
     cases = make_cases(model, formulation, lateral_dashpot, parameters, initial_state, limits, values, inputs)
     criteria = Criteria(breakdown_field, breakdown_exponent, smallest_tension)
     checks.choice("dashpots", dashpots, (FROZEN, RELAXED))
     found = []
     for problem in cases.problems():
-        statics = make_statics(problem, dashpots, cases.initial_state, limits)
+        statics = cases.statics(problem, dashpots)
         found.append((statics, find_limit(statics, criteria)))
     return xr.Dataset(
         _variables(cases, found), coords=cases.coordinates(), attrs=_attributes(cases, dashpots, criteria)
@@ -206,7 +206,7 @@ def _measures(electrical: ElectricalInput) -> dict[str, tuple[str, str]]:
 
 def _variables(cases: Cases, found: list[tuple[Statics, Limit]]) -> dict[str, tuple]:
     dimensions, shape = tuple(cases.grid.axes), cases.grid.shape
-    limits, electrical = [limit for _, limit in found], electrical_input(cases.model)
+    limits, electrical = [limit for _, limit in found], cases.electrical
     of = critical_names(electrical)
 
     def numbers(values: list[float]) -> np.ndarray:
@@ -252,7 +252,7 @@ def _at(limit: Limit, value: Callable[[np.ndarray], float]) -> float:
 def _attributes(cases: Cases, dashpots: str, criteria: Criteria) -> dict[str, object]:
     return cases.attributes(dashpots) | {
         "definition": "limit point of the equilibrium of the unloaded membrane as the force and then the "
-        f"{electrical_input(cases.model).text} grow",
+        f"{cases.electrical.text} grow",
         "dashpots_meaning": f"{FROZEN_MEANING}; {RELAXED_MEANING}",
         "breakdown_field": np.inf if criteria.breakdown_field is None else criteria.breakdown_field,
         "breakdown_field_units": "V/m",

@@ -3,40 +3,70 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from types import ModuleType
 
 import numpy as np
 
-from delagrange.analysis.steady.load import LOAD_UNITS
+from delagrange.analysis.steady.load import sine_of
 from delagrange.analysis.steady.search import Range
 from delagrange.common import checks
 from delagrange.common.units import shown, with_unit
-from delagrange.drives.inputs import ELECTRICAL, ElectricalInput, electrical_input
-from delagrange.model.material import Material
+from delagrange.drives.drive import Drive
+from delagrange.drives.inputs import ElectricalInput, Inputs, constant_inputs, refuse_searched
+from delagrange.drives.sines import LOAD_UNITS, own_sine
+from delagrange.model.parameters import Parameters
+from delagrange.problem.problem import Problem, Specimen, make_specimen
 
+TOLERANCE_RANGE = (1e-14, 1e-6)  # of the flow
 _MOST_VIBRATIONS = 10_000
 
 
-def electrical_numbers(model: ModuleType, **given: object) -> tuple[ElectricalInput, dict[str, object]]:
-    """The electrical input of a model, and the amplitude and the bias of its sine by their names.
+@dataclass(frozen=True)
+class Forced:
+    """A membrane under a constant force and a sine of what drives its electrodes, as far as that does not vary."""
 
-    given: field_amplitude, field_bias, charge_amplitude, charge_bias; None: left out
+    specimen: Specimen
+    electrical: ElectricalInput
+    sine: Mapping[str, object]  # its amplitude and bias as given
+    constant: Mapping[str, float]  # other inputs, by name
+    held_stretch: float | None
+    material: Mapping[str, float]  # what is changed of it
+
+    def problem(self, force: float, drive: Drive | float) -> Problem:
+        """Under a force [N] and a drive of the electrodes, or their constant value."""
+        inputs = {**self.constant, self.electrical.name: drive}
+        return self.specimen.single_problem(self.material, self.held_stretch, force, 0.0, inputs)
+
+    def driven(self, load: Mapping[str, float]) -> Problem:
+        """Under a load."""
+        return self.problem(load["force"], sine_of(load, self.electrical))
+
+
+def make_forced(
+    model: str | ModuleType,
+    formulation: str | None,
+    lateral_dashpot: str | None,
+    parameters: Parameters | None,
+    sines: Mapping[str, object],
+    inputs: Inputs | None,
+    held_stretch: float | None,
+    material: Mapping[str, float],
+    purpose: str,
+) -> Forced:
+    """The forced membrane, for a `purpose` that errors name.
+
+    sines: amplitude and bias of every electrical input by name; an amplitude of None: left out
 
     Raises:
-        ValueError: those of the other input are given, or the amplitude of this one is not.
+        ValueError: those of another input than that of the model, no amplitude, or inputs that are no single numbers.
     """
-    electrical = electrical_input(model)
-    for name in (name for each in ELECTRICAL.values() for name in (each.amplitude, each.bias)):
-        foreign = name not in (electrical.amplitude, electrical.bias)
-        if foreign and given[name] is not None and not (np.ndim(given[name]) == 0 and given[name] == 0):
-            raise ValueError(
-                f"{name} given as {shown(given[name])}, but the electrical input of {model.MODEL} is "
-                f"{electrical.name} [{electrical.unit}]; give {electrical.amplitude} and {electrical.bias}"
-            )
-    if given[electrical.amplitude] is None:
-        raise ValueError(f"{electrical.amplitude} [{electrical.unit}] must be given, got none")
-    bias = 0.0 if given[electrical.bias] is None else given[electrical.bias]
-    return electrical, {electrical.amplitude: given[electrical.amplitude], electrical.bias: bias}
+    specimen = make_specimen(model, formulation, lateral_dashpot, parameters)
+    electrical = refuse_searched(specimen.model, inputs)
+    sine = own_sine(specimen.model, electrical, sines)
+    constant = constant_inputs(specimen.model, inputs, purpose)
+    specimen.material.check_names(material)
+    return Forced(specimen, electrical, sine, constant, held_stretch, material)
 
 
 def varied_load(
@@ -103,19 +133,6 @@ def check_frequencies(lowest: float, fastest: float) -> None:
             f"frequency must be at least {least:.3g} Hz, {_MOST_VIBRATIONS:g} small vibrations a period, "
             f"got {lowest:g} Hz; what is so slow is in equilibrium at all times, see equilibria"
         )
-
-
-def single_material(changes: Mapping[str, object], material: Material) -> dict[str, float]:
-    """Single values of the material by name.
-
-    Raises:
-        ValueError: an unknown name, or not a single positive number.
-    """
-    material.check_names(changes)
-    return {
-        name: checks.scalar(name, material.checked(name, value), material.units[name])
-        for name, value in changes.items()
-    }
 
 
 def seed_values(whole: Range, seeds: int | np.ndarray, varied: str) -> np.ndarray:

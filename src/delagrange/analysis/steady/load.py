@@ -1,18 +1,14 @@
-"""The load of a periodic motion: a constant force, and bias and amplitude of a sine of the field or the charge."""
+"""The load of a periodic motion: a constant force, and bias and amplitude of a sine of field, charge or current."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
-from types import ModuleType
 
 from delagrange.drives.drive import Constant, Drive, Sine
-from delagrange.drives.inputs import ELECTRICAL, FORCE, ElectricalInput, Inputs, electrical_input, has_input
+from delagrange.drives.inputs import FORCE, ElectricalInput, electrical_input, has_input
 from delagrange.engines.flow import AMPLITUDE, BIAS, FREQUENCY
 from delagrange.problem.problem import Problem
-
-_ELECTRICAL_UNITS = {name: each.unit for each in ELECTRICAL.values() for name in (each.amplitude, each.bias)}
-LOAD_UNITS: Mapping[str, str] = {"force": "N", **_ELECTRICAL_UNITS, "frequency": "Hz"}  # of any model
 
 
 def load_names(electrical: ElectricalInput) -> tuple[str, str, str, str]:
@@ -46,8 +42,3 @@ def under_load(problem: Problem, load: Mapping[str, float]) -> Problem:
 def forces_of(problem: Problem, load: Mapping[str, float]) -> dict[str, float]:
     """The force of a load as the input that it is, if the model has it."""
     return {FORCE: load["force"]} if has_input(problem.model, FORCE) else {}
-
-
-def with_electrical(model: ModuleType, inputs: Inputs | None, drive: Drive | float) -> Inputs:
-    """Inputs by name, with the electrical one among them."""
-    return {**(inputs or {}), electrical_input(model).name: drive}

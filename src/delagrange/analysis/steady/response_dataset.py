@@ -10,10 +10,10 @@ import xarray as xr
 
 from delagrange.analysis.steady import floquet
 from delagrange.analysis.steady.branches import Findings
-from delagrange.analysis.steady.load import LOAD_UNITS, load_names
+from delagrange.analysis.steady.load import load_names
 from delagrange.analysis.steady.search import Search
 from delagrange.analysis.steady.shooting import Orbit
-from delagrange.drives.inputs import ELECTRIC_FIELD, ElectricalInput, electrical_input
+from delagrange.drives.sines import LOAD_UNITS, sine_long_names
 from delagrange.run.run_dataset import variable
 
 PERIODIC_AMPLITUDE = "half of peak to peak over one period of the periodic motion, without any transient"
@@ -42,10 +42,10 @@ def _motion_variables(search: Search, orbits: list[Orbit], dimension: str, prefi
     """Loads, and the extrema of every coordinate; those of the first go without its name."""
     data = {}
     model = search.shooting.path.problem.model
-    electrical = electrical_input(model)
-    for name, long_name in zip(load_names(electrical), _long_names(electrical), strict=True):
+    long_names = {"force": "applied force"} | sine_long_names(search.electrical)
+    for name in load_names(search.electrical):
         values = np.array([orbit.load[name] for orbit in orbits], dtype=float)
-        data[prefix + name] = variable(dimension, values, LOAD_UNITS[name], long_name)
+        data[prefix + name] = variable(dimension, values, LOAD_UNITS[name], long_names[name])
     for what in ("amplitude", "maximum", "minimum"):
         extrema = np.array([getattr(orbit, what) for orbit in orbits], dtype=float)
         extrema = extrema.reshape(len(orbits), model.COORDINATE_COUNT)
@@ -57,15 +57,9 @@ def _motion_variables(search: Search, orbits: list[Orbit], dimension: str, prefi
     return data
 
 
-def _long_names(electrical: ElectricalInput) -> tuple[str, str, str, str]:
-    """Of the numbers of the load, in their order."""
-    text, sine = electrical.long_name, "electric field" if electrical is ELECTRIC_FIELD else "charge"
-    return "applied force", f"amplitude of the {text}", f"bias of the {text}", f"frequency of the {sine}"
-
-
 def _state_variables(search: Search, orbits: list[Orbit]) -> dict[str, tuple]:
     entries = search.shooting.path.problem.model.STATE
-    stem = electrical_input(search.shooting.path.problem.model).stem
+    stem = search.electrical.stem
     states = np.array([orbit.state for orbit in orbits]).reshape(len(orbits), len(entries))
     data = {
         entry.name: variable(

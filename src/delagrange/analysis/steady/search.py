@@ -10,9 +10,10 @@ import numpy as np
 
 from delagrange.analysis.steady import floquet
 from delagrange.analysis.steady.floquet import Bifurcation
-from delagrange.analysis.steady.load import LOAD_UNITS
 from delagrange.analysis.steady.shooting import Shooting
 from delagrange.common.units import with_unit
+from delagrange.drives.inputs import ElectricalInput, electrical_input
+from delagrange.drives.sines import LOAD_UNITS
 from delagrange.equilibrium.continuation import (
     ContinuationSettings,
     Lost,
@@ -68,6 +69,11 @@ class Search:
     settings: ContinuationSettings
     conservative: bool
     largest_amplitude: float  # [1], of the first coordinate
+
+    @property
+    def electrical(self) -> ElectricalInput:
+        """The electrical input of the membrane."""
+        return electrical_input(self.shooting.path.problem.model)
 
     @property
     def most_points_ending(self) -> str:

@@ -14,8 +14,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from delagrange.analysis.steady.load import LOAD_UNITS, source_of, under_load
+from delagrange.analysis.steady.load import source_of, under_load
 from delagrange.drives.inputs import electrical_input
+from delagrange.drives.sines import LOAD_UNITS
 from delagrange.engines.flow import Flow, FlowPath, Source, Travel
 from delagrange.equilibrium.continuation import Evaluation, Lost
 from delagrange.equilibrium.statics import input_place

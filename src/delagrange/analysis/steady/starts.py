@@ -1,8 +1,8 @@
-"""Periodic motions to start branches from: grown with field or charge, or near rest under its mean square."""
+"""Periodic motions to start branches from: grown with what drives them, or near rest under its mean square."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache
 
@@ -11,10 +11,10 @@ import numpy as np
 from delagrange.analysis.steady.load import forces_of
 from delagrange.analysis.steady.search import Range, Search
 from delagrange.analysis.steady.shooting import Shooting
-from delagrange.drives.inputs import ElectricalInput, electrical_input
 from delagrange.equilibrium.continuation import ContinuationSettings, Lost, continue_branch, solve
 from delagrange.equilibrium.seeds import equilibria_at
 from delagrange.equilibrium.statics import Statics
+from delagrange.problem.dashpots import leak_rate
 
 _FARTHEST = 1.5  # of the wanted amplitude of the field: folds back from beyond are followed that far
 _GROWTH = ContinuationSettings(
@@ -46,28 +46,33 @@ def equilibria_of(statics: Statics) -> Equilibria:
     return found
 
 
-def electrical_of(search: Search) -> ElectricalInput:
-    """The electrical input of the membrane of a search."""
-    return electrical_input(search.shooting.path.problem.model)
-
-
 def starts(search: Search, equilibria: Equilibria, value: float) -> Iterator[Start]:
     """Periodic motions at a value of the varied number; the same one may come more than once."""
-    load, electrical = search.shooting.at(value), electrical_of(search)
-    bias, amplitude = load[electrical.bias], load[electrical.amplitude]
-    for rest in equilibria(load["force"], bias):
+    load, electrical = search.shooting.at(value), search.electrical
+    for rest in equilibria(load["force"], load[electrical.bias]):
         for state in _grown(search, rest, load):
             yield Start(
                 search.shooting.x_of(state, value), f"grown with the {electrical.stem} from an equilibrium"
             )
-    mean_square = bias**2 + amplitude**2 / 2
-    for rest in equilibria(load["force"], float(np.sqrt(mean_square))):
+    for rest in equilibria(load["force"], _root_mean_square(search, load)):
         yield from _solved(search, rest, value)
+
+
+def _root_mean_square(search: Search, load: Mapping[str, float]) -> float:
+    """The constant field, charge or current whose square is the mean of that of field or charge.
+
+    The charge of a sine of current lags behind it: all of it would flow only if it leaked fast against the sine.
+    """
+    electrical, leak = search.electrical, leak_rate(search.shooting.path.problem)
+    squared = load[electrical.amplitude] ** 2 / 2
+    if leak > 0:
+        squared /= 1 + (2 * np.pi * load["frequency"] / leak) ** 2
+    return float(np.sqrt(load[electrical.bias] ** 2 + squared))
 
 
 def _grown(search: Search, state: np.ndarray, load: dict[str, float]) -> Iterator[np.ndarray]:
     """States at phase 0, at the wanted amplitude of field or charge, of what grows with it from an equilibrium."""
-    name = electrical_of(search).amplitude
+    name = search.electrical.amplitude
     target = load[name]
     if target == 0:
         yield state
@@ -91,5 +96,5 @@ def _solved(search: Search, state: np.ndarray, value: float) -> Iterator[Start]:
     except Lost:
         return
     if search.outside(found.x) is None:
-        stem = electrical_of(search).stem
+        stem = search.electrical.stem
         yield Start(found.x, f"found near the equilibrium under the mean square of the {stem}")

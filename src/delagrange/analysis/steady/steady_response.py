@@ -1,4 +1,4 @@
-"""The periodic response to a sine of field or charge, stable or not, along a frequency, a force or an amplitude."""
+"""The periodic response to a sine of field, charge or current, stable or not, along a number of the load."""
 
 from __future__ import annotations
 
@@ -10,37 +10,35 @@ import numpy as np
 import xarray as xr
 
 from delagrange.analysis.forcing import enters_squared, fastest_vibration
-from delagrange.analysis.rest.arguments import refuse_electrical
 from delagrange.analysis.steady.arguments import (
+    TOLERANCE_RANGE,
     check_frequencies,
-    electrical_numbers,
+    make_forced,
     seed_values,
-    single_material,
     varied_load,
 )
 from delagrange.analysis.steady.branches import find_branches
-from delagrange.analysis.steady.load import load_names, sine_of, with_electrical
 from delagrange.analysis.steady.response_dataset import PERIODIC_AMPLITUDE, steady_dataset
 from delagrange.analysis.steady.search import Range, Search
 from delagrange.analysis.steady.shooting import Shooting
 from delagrange.common import checks
 from delagrange.common.progress import progress_bar, working
 from delagrange.drives.drive import Constant
-from delagrange.drives.inputs import FORCE, constant_inputs, electrical_input, has_input
-from delagrange.engines.flow import FlowPath, typical_sizes
+from delagrange.drives.inputs import ELECTRICAL, FORCE, Inputs, has_input
+from delagrange.drives.sines import sine_text
+from delagrange.engines.flow import FlowPath
 from delagrange.engines.flows import resolve_flow
 from delagrange.equilibrium.continuation import ContinuationSettings
-from delagrange.equilibrium.statics import Statics, input_place, make_statics
-from delagrange.model.load import load_model
-from delagrange.model.parameters import Parameters, material_of
-from delagrange.problem.dashpots import FROZEN, dashpot_places, is_damped
-from delagrange.problem.initial import PREFIX
-from delagrange.problem.problem import Problem, make_problem
+from delagrange.equilibrium.statics import Statics, input_place, make_statics, refuse_endless
+from delagrange.model.parameters import Parameters
+from delagrange.problem.coordinate_size import typical_sizes
+from delagrange.problem.dashpots import FROZEN, is_damped
+from delagrange.problem.initial import single_initial
+from delagrange.problem.problem import Problem
 from delagrange.problem.status import Limits
 from delagrange.run.run_dataset import run_attributes
 
 _TOLERANCE = 1e-8  # of Newton's last correction, scaled; the error after it is about its square
-_TOLERANCES = (1e-14, 1e-6)
 _FIRST, _SMALLEST = 0.3, 1e-8  # of the largest step, and scaled
 
 
@@ -50,10 +48,12 @@ def steady_response(
     frequency: tuple[float, float] | float,
     field_amplitude: tuple[float, float] | float | None = None,
     charge_amplitude: tuple[float, float] | float | None = None,
+    current_amplitude: tuple[float, float] | float | None = None,
     force: tuple[float, float] | float = 0.0,
-    inputs: Mapping[str, float] | None = None,
+    inputs: Inputs | None = None,
     field_bias: tuple[float, float] | float = 0.0,
     charge_bias: tuple[float, float] | float = 0.0,
+    current_bias: tuple[float, float] | float = 0.0,
     dashpots: str = FROZEN,
     held_stretch: float | None = None,
     formulation: str | None = None,
@@ -86,7 +86,9 @@ def steady_response(
     Args:
         inputs: constant values of any other input but the field by its name, as {"force_2": 0.3}.
         charge_amplitude, charge_bias: [C/m^2] of the nominal charge density, numbers or one of them a pair, instead
-            of those of the field, under charge control; the result names them so.
+            of those of the field, where that drives the model; and
+        current_amplitude, current_bias: [A/m^2] of the nominal current density where that does; the result names
+            them so. The charge that a current feeds flows with the motion, and its leak damps.
         dashpots: "frozen": they stand at the reference or at `initial_state`, nothing damps, and the peak of a
             resonance has no top: its sides rise to a limit. "relaxed": they flow, and are periodic with the motion.
         initial_state: where frozen dashpots stand, by name of the state variable.
@@ -114,30 +116,21 @@ def steady_response(
     Raises:
         ValueError: something given makes no sense; the message names it, its value, its unit and what is allowed.
     """
-    module = load_model(model, formulation, lateral_dashpot)
-    electrical, numbers = electrical_numbers(
-        module,
-        field_amplitude=field_amplitude,
-        field_bias=field_bias,
-        charge_amplitude=charge_amplitude,
-        charge_bias=charge_bias,
+    sines = {
+        "field_amplitude": field_amplitude, "field_bias": field_bias,
+        "charge_amplitude": charge_amplitude, "charge_bias": charge_bias,
+        "current_amplitude": current_amplitude, "current_bias": current_bias,
+    }  # fmt: skip
+    forced = make_forced(
+        model, formulation, lateral_dashpot, parameters, sines, inputs, held_stretch, material, "a steady response"
     )
-    given = {
-        "force": force,
-        **numbers,
-        "frequency": frequency,
-    }
-    varied, whole, load = varied_load(given, electrical)
-    refuse_electrical(module, inputs)
-    constant = constant_inputs(module, inputs, "a steady response")
-    membrane = material_of(module, parameters)
-    material = single_material(material, membrane)
+    module, electrical = forced.specimen.model, forced.electrical
+    varied, whole, load = varied_load({"force": force, **forced.sine, "frequency": frequency}, electrical)
     for value in (whole.start, whole.stop):  # both ends must be computable
-        fixed = {**load, varied: value}
-        driven = with_electrical(module, constant, sine_of(fixed, electrical))
-        problem = make_problem(module, parameters, material, held_stretch, fixed["force"], 0.0, driven)
-    resting = make_problem(module, parameters, material, held_stretch, load["force"], 0.0, constant)
+        problem = forced.driven({**load, varied: value})
+    resting = forced.problem(load["force"], 0.0)
     statics = make_statics(resting, dashpots, initial_state, limits)
+    refuse_endless(statics, np.inf, "periodic motion of its own")
     settings = _settings(resolution, most_points)
     lowest = min(whole.start, whole.stop) if varied == "frequency" else load["frequency"]
     check_frequencies(lowest, fastest_vibration(_unloaded(statics.problem), statics.rest))
@@ -152,8 +145,7 @@ def steady_response(
         findings = find_branches(
             search, statics, values, checks.count("most_branches", most_branches, 1), bar
         )
-    about = run_attributes(problem, membrane.replace(**material), limits)
-    about |= {PREFIX + name: float(value) for name, value in (initial_state or {}).items()}
+    about = run_attributes(problem, limits) | single_initial(module, initial_state)
     return steady_dataset(search, findings, about | _attributes(search, dashpots, findings.search))
 
 
@@ -183,11 +175,7 @@ def _shooting(
     progress: bool,
 ) -> Shooting:
     problem = statics.problem
-    count = problem.model.COORDINATE_COUNT
-    places = np.arange(2 * count)
-    if statics.relaxed:
-        places = np.concatenate([places, np.arange(len(problem.model.STATE))[dashpot_places(problem.model)]])
-    tolerance = checks.within("tolerance", tolerance, "1", *_TOLERANCES)
+    tolerance = checks.within("tolerance", tolerance, "1", *TOLERANCE_RANGE)
     with working(
         progress, f"preparing {problem.model.MODEL}; its first use on a machine takes seconds to compile"
     ):
@@ -196,7 +184,7 @@ def _shooting(
         path=FlowPath(problem, typical_sizes(problem), tolerance, statics.limits),
         flow=flow,
         rest=statics.rest,
-        unknowns=places,
+        unknowns=statics.moving,
         load=dict(load),
         varied=varied,
         size=whole.span,
@@ -215,13 +203,12 @@ def _doubles(statics: Statics, varied: str, load: Mapping[str, float]) -> bool:
 
 def _attributes(search: Search, dashpots: str, ending: str) -> dict[str, object]:
     shooting = search.shooting
-    electrical = electrical_input(shooting.path.problem.model)
-    _, amplitude, bias, _ = load_names(electrical)
+    electrical = search.electrical
     sines = (
         f"1/(2 f): the {electrical.stem} enters squared, without bias" if shooting.per_sine == 2 else "1/f"
     )
     return {
-        f"{electrical.name}_drive": f"{bias} + {amplitude} * sin(2 pi frequency t)",
+        f"{electrical.name}_drive": sine_text(electrical, phase=False),
         "varied_input": electrical.name,
         **({"force_drive": "Constant(force)"} if has_input(shooting.path.problem.model, FORCE) else {}),
         "varied": shooting.varied,
@@ -237,13 +224,15 @@ def _attributes(search: Search, dashpots: str, ending: str) -> dict[str, object]
 
 
 def _explanation(search: Search, dashpots: str) -> str:
-    stem = electrical_input(search.shooting.path.problem.model).stem
+    stem, squared = search.electrical.stem, ELECTRICAL[search.electrical.squared].stem
     if search.shooting.per_sine == 2:
         text = f"The {stem} enters squared: its sine of frequency f forces at 2 f; a mode f_n resonates at f = f_n/2. "
+    elif squared != stem:
+        text = f"The {squared} that the {stem} feeds enters squared: it forces at 2 f, with a bias at f as well. "
     else:
         text = f"With a bias the {stem} forces at f and 2 f; a mode f_n resonates at f = f_n and at f_n/2. "
     if dashpots == FROZEN and not search.conservative:
-        return text + "Dashpots frozen; a parallel dashpot or the medium damps, and stable motions attract."
+        return text + "Dashpots frozen; a parallel dashpot, the medium or a leak damps, and stable motions attract."
     if dashpots == FROZEN:
         return (
             text + "Dashpots frozen: nothing damps, neutral motions attract nothing, resonances have no top."

@@ -9,27 +9,25 @@ from types import ModuleType
 import numpy as np
 import xarray as xr
 
-from delagrange.analysis.rest.arguments import refuse_electrical
-from delagrange.analysis.steady.arguments import electrical_numbers, load_number, single_material
-from delagrange.analysis.steady.load import LOAD_UNITS, forces_of, sine_of, under_load, with_electrical
+from delagrange.analysis.steady.arguments import TOLERANCE_RANGE, load_number, make_forced
+from delagrange.analysis.steady.load import forces_of, under_load
 from delagrange.common import checks
 from delagrange.common.progress import Progress, progress_bar
-from delagrange.common.units import with_unit
-from delagrange.drives.inputs import ELECTRIC_FIELD, constant_inputs, electrical_input
-from delagrange.engines.flow import Flow, FlowPath, typical_sizes
+from delagrange.drives.inputs import Inputs, electrical_input
+from delagrange.drives.sines import LOAD_UNITS, frequency_axis, sine_long_names, sine_text
+from delagrange.engines.flow import Flow, FlowPath
 from delagrange.engines.flows import resolve_flow
 from delagrange.equilibrium.seeds import equilibria_at
-from delagrange.equilibrium.statics import Statics, make_statics
+from delagrange.equilibrium.statics import Statics, make_statics, refuse_endless
 from delagrange.equilibrium.vibration import growing_directions
-from delagrange.model.load import load_model
-from delagrange.model.parameters import Parameters, material_of
+from delagrange.model.parameters import Parameters
 from delagrange.problem import status as loss
+from delagrange.problem.coordinate_size import typical_sizes
 from delagrange.problem.dashpots import FROZEN, RELAXED, given_state, is_damped
-from delagrange.problem.problem import Problem, make_problem
+from delagrange.problem.problem import Problem
 from delagrange.problem.status import COMPLETED, INTERRUPTED, Limits
 from delagrange.run.run_dataset import run_attributes, status_time_variable, status_variable, variable
 
-_TOLERANCES = (1e-14, 1e-6)
 _LAST = "half of peak to peak over the last {measure} periods of the {stem} at each frequency, after {settle} to settle"
 
 
@@ -65,10 +63,12 @@ def stepped_sweep(
     frequency: np.ndarray,
     field_amplitude: float | None = None,
     charge_amplitude: float | None = None,
+    current_amplitude: float | None = None,
     force: float = 0.0,
-    inputs: Mapping[str, float] | None = None,
+    inputs: Inputs | None = None,
     field_bias: float = 0.0,
     charge_bias: float = 0.0,
+    current_bias: float = 0.0,
     dashpots: str = RELAXED,
     settle: int = 200,
     measure: int = 20,
@@ -93,8 +93,8 @@ def stepped_sweep(
     Args:
         frequency: [Hz], strictly increasing or strictly decreasing.
         field_amplitude, field_bias: [V/m]; force: [N].
-        charge_amplitude, charge_bias: of the nominal charge density [C/m^2], instead of those of the field, under
-            charge control.
+        charge_amplitude, charge_bias: of the nominal charge density [C/m^2], instead of those of the field, where
+            that drives the model; current_amplitude, current_bias: of the nominal current density [A/m^2].
         inputs: constant values of any other input by its name.
         dashpots: "relaxed": they begin in equilibrium and then flow; "frozen".
         settle, measure: periods of the field at each frequency before the amplitude is taken, and while it is.
@@ -113,39 +113,26 @@ def stepped_sweep(
     Raises:
         ValueError: something given makes no sense, or there is no stable equilibrium to begin from.
     """
-    module = load_model(model, formulation, lateral_dashpot)
-    frequencies = _frequencies(frequency)
-    electrical, numbers = electrical_numbers(
-        module,
-        field_amplitude=field_amplitude,
-        field_bias=field_bias,
-        charge_amplitude=charge_amplitude,
-        charge_bias=charge_bias,
+    frequencies = frequency_axis(frequency, or_decreasing=True)
+    sines = {
+        "field_amplitude": field_amplitude, "field_bias": field_bias,
+        "charge_amplitude": charge_amplitude, "charge_bias": charge_bias,
+        "current_amplitude": current_amplitude, "current_bias": current_bias,
+    }  # fmt: skip
+    forced = make_forced(
+        model, formulation, lateral_dashpot, parameters, sines, inputs, held_stretch, material, "a stepped sweep"
     )
-    given = {"force": force, **numbers}
-    refuse_electrical(module, inputs)
-    load = {name: load_number(name, value) for name, value in given.items()}
-    constant = constant_inputs(module, inputs, "a stepped sweep")
-    membrane = material_of(module, parameters)
-    material = single_material(material, membrane)
-    driven, resting = (
-        make_problem(
-            module,
-            parameters,
-            material,
-            held_stretch,
-            load["force"],
-            0.0,
-            with_electrical(module, constant, drive),
-        )
-        for drive in (sine_of({**load, "frequency": frequencies[0]}, electrical), load[electrical.bias])
-    )
+    module, bias = forced.specimen.model, forced.electrical.bias
+    load = {name: load_number(name, value) for name, value in {"force": force, **forced.sine}.items()}
+    driven = forced.driven({**load, "frequency": frequencies[0]})
+    resting = forced.problem(load["force"], load[bias])
     statics = make_statics(resting, dashpots, _standing(initial_state, module), limits)
+    refuse_endless(statics, load[bias], "rest to begin from")
     start = _start(statics, load) if initial_state is None else given_state(resting, initial_state)
     problem = replace(statics.problem, drives=driven.drives)
     sweep = _Sweep(
         path=FlowPath(
-            problem, typical_sizes(problem), checks.within("tolerance", tolerance, "1", *_TOLERANCES), limits
+            problem, typical_sizes(problem), checks.within("tolerance", tolerance, "1", *TOLERANCE_RANGE), limits
         ),
         flow=resolve_flow(problem, engine),
         load=load,
@@ -154,19 +141,8 @@ def stepped_sweep(
     )  # fmt: skip
     with progress_bar(progress, f"{module.MODEL} stepped sweep", len(frequencies), "frequencies") as bar:
         found = _run(sweep, frequencies, start, bar)
-    about = run_attributes(driven, membrane.replace(**material), limits)
+    about = run_attributes(driven, limits)
     return _dataset(sweep, problem, frequencies, found, about | _attributes(sweep, dashpots))
-
-
-def _frequencies(given: object) -> np.ndarray:
-    values = np.atleast_1d(checks.positive("frequency", given, "Hz"))
-    steps = np.diff(values)
-    if values.ndim != 1 or not values.size or not (np.all(steps > 0) or np.all(steps < 0)):
-        raise ValueError(
-            "frequency must be strictly increasing or strictly decreasing, of at least one value, got "
-            f"{with_unit(given, 'Hz')}"
-        )
-    return values
 
 
 def _standing(initial_state: Mapping[str, float] | None, module: ModuleType) -> Mapping[str, float] | None:
@@ -182,14 +158,14 @@ def _start(statics: Statics, load: Mapping[str, float]) -> np.ndarray:
     electrical = statics.electrical
     resting = statics.varying(electrical.name, **forces_of(statics.problem, load))
     bias = load[electrical.bias]
-    stable = [x for x in equilibria_at(resting, bias) if growing_directions(resting, x) == 0]
+    stable = [x for x in equilibria_at(resting, abs(bias)) if growing_directions(resting, x) == 0]
     if not stable:
         raise ValueError(
             f"no stable equilibrium under force = {load['force']:g} N and {electrical.bias} = "
             f"{bias:g} {electrical.unit} "
             "to begin from; give initial_state"
         )
-    return resting.state(min(stable, key=lambda x: float(np.sum(x[:-1] ** 2))))
+    return resting.signed_state(min(stable, key=lambda x: float(np.sum(x[:-1] ** 2))), bias)
 
 
 def _run(sweep: _Sweep, frequencies: np.ndarray, state: np.ndarray, bar: Progress) -> _Found:
@@ -253,8 +229,8 @@ def _dataset(
         data[f"final_{entry.name}"] = variable("frequency", numbers, entry.unit, long_name, entry.symbol)
     data["status"] = status_variable("frequency", found.status)
     data["status_time"] = status_time_variable("frequency", found.status_time)
-    sine = "electric field" if electrical_input(model) is ELECTRIC_FIELD else "charge"
-    coordinate = variable("frequency", frequencies, "Hz", f"frequency of the {sine}", "f")
+    long_name = sine_long_names(electrical_input(model))["frequency"]
+    coordinate = variable("frequency", frequencies, "Hz", long_name, "f")
     return xr.Dataset(data, coords={"frequency": coordinate}, attrs=attributes)
 
 
@@ -268,10 +244,10 @@ def _attributes(sweep: _Sweep, dashpots: str) -> dict[str, object]:
     note = (
         "nothing damps: every step adds a free vibration that stays"
         if dashpots == FROZEN and not is_damped(sweep.path.problem)
-        else "dashpots or the medium damp"
+        else "dashpots, the medium or a leak damp"
     )
     return {
-        f"{electrical.name}_drive": f"{electrical.bias} + {electrical.amplitude} * sin(2 pi frequency t)",
+        f"{electrical.name}_drive": sine_text(electrical, phase=False),
         "varied_input": electrical.name,
         **{name: value for name, value in sweep.load.items()},
         **{f"{name}_units": LOAD_UNITS[name] for name in sweep.load},

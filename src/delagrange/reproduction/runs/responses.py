@@ -78,7 +78,7 @@ def _response_dataset(
     data = extrema_variables(problem.model, outcome, dimensions, shape, window)
     data["status"] = status_variable(dimensions, outcome.status.reshape(shape))
     data["status_time"] = status_time_variable(dimensions, outcome.status_time.reshape(shape))
-    attributes = run_attributes(problem, SHENG_2015, settings.limits) | window | numerics.attributes()
+    attributes = run_attributes(problem, settings.limits) | window | numerics.attributes()
     attributes |= {
         "figure": figure.number,
         "duration": figure.window,
