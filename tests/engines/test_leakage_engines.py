@@ -108,6 +108,31 @@ def test_a_sweep_of_the_current_by_command(leaky, tmp_path, capsys):
     assert xr.load_dataset(out)["amplitude"].shape == (2, 3)
 
 
+def test_what_rests_and_vibrates_under_a_current_by_command(leaky, tmp_path, capsys):
+    out, plot = tmp_path / "found.nc", tmp_path / "found.png"
+    given_ = ["--input", f"{CURRENT}=0:0.4:0.2", "--out", str(out), "--plot", str(plot), "--quiet"]
+    assert main(["equilibrium", leaky.__file__, *given_]) == 0
+    assert "nominal current density [A/m^2]" in capsys.readouterr().out
+    found = xr.load_dataset(out)
+    np.testing.assert_allclose(found[CHARGE][:, 0], [0.0, 2e-3, 4e-3], rtol=1e-9, atol=1e-15)
+    assert main(["modes", leaky.__file__, *given_]) == 0
+    assert "current frequency [Hz]" in capsys.readouterr().out
+    assert xr.load_dataset(out)["frequency"].dims == (CURRENT, "mode")
+    assert plot.read_bytes().startswith(b"\x89PNG")
+    assert main(["equilibrium", leaky.__file__, "--quiet"]) == 0  # up to a current that it chooses
+    assert capsys.readouterr().out.count("stable") == 12
+
+
+def test_a_periodic_response_to_a_current_by_command(leaky, tmp_path, capsys):
+    out, plot = tmp_path / "found.nc", tmp_path / "found.png"
+    sine = ["--current-amplitude", "1.0", "--frequency", "430:433", "--most-points", "4"]
+    given_ = ["--steady", "--out", str(out), "--plot", str(plot), "--quiet"]
+    assert main(["response", leaky.__file__, *sine, *given_]) == 0
+    assert "The charge that the current feeds enters squared" in capsys.readouterr().out
+    assert np.all(xr.load_dataset(out)["current_amplitude"] == 1.0)
+    assert plot.read_bytes().startswith(b"\x89PNG")
+
+
 def test_tangents_of_the_variational_kernel_are_those_of_scipy(leaky):
     drives = {CURRENT: dl.Sine(0.05, 200.0)}
     problem = frozen(make_problem(leaky, None, {}, None, 0.1, 0.0, drives))

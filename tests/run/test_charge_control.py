@@ -467,7 +467,7 @@ WRONG = {
         ["response", "--field-amplitude", "5e4", "--frequency", "300:303", "--steady"],
         "field_amplitude given as 50000, but the electrical input of charged is nominal_charge_density [C/m^2]",
     ),
-    "none": (["response", "--frequency", "300:303", "--steady"], "charge_amplitude [C/m^2] must be given"),
+    "none": (["response", "--frequency", "300:303", "--steady"], "charge_amplitude must be a number in C/m^2"),
     "both": (
         ["classify", "--charge-amplitude", "5e-4", "--frequency", "300", "--field-amplitude", "1e6"],
         "driven by --field-amplitude and --charge-amplitude at once",

@@ -35,10 +35,10 @@ _CURVES = ("point", "limit_point")  # dimensions that a table over field and bra
 def equilibrium(given: Given) -> None:
     """Equilibria: all branches over the field, their stability, where they end.
 
-    Under a constant force and field, with dashpots relaxed or frozen; under charge
-    control over --input nominal_charge_density=START:STOP:STEP. Branch 0 is that of
-    the unloaded membrane; at a limit point it meets an unstable one and
-    both end: pull-in. Loss of tension and electrical breakdown are told where the
+    Under a constant force and field, with dashpots relaxed or frozen; where a charge
+    or current drives the model, over --input nominal_charge_density=START:STOP:STEP
+    or nominal_current_density. Branch 0 is that of the unloaded membrane; at a limit
+    point it meets an unstable one and both end: pull-in. Loss of tension and electrical breakdown are told where the
     criteria say so. Without --field or --voltage, fields up to a little beyond
     pull-in are taken.
 

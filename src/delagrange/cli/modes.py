@@ -23,10 +23,10 @@ def modes(given: Given) -> None:
     """Natural frequencies and modes about the stable equilibrium.
 
     The equilibrium is the one that the unloaded membrane reaches under the force
-    and then the field, 0 V/m where none is given; under charge control under
-    --input nominal_charge_density=VALUES instead. The field enters squared: without
-    a bias it excites a mode at half its natural frequency, the "field frequency" of
-    the table.
+    and then the field, 0 V/m where none is given; where a charge or current drives
+    the model, under --input nominal_charge_density=VALUES or nominal_current_density
+    instead. The field enters squared: without a bias it excites a mode at half its
+    natural frequency, the "field frequency" of the table.
 
     [bold]Examples[/]
 
