@@ -19,8 +19,8 @@ from benchmarks.cases import Case, Runs
 from benchmarks.contestant import Contestant, Run
 from benchmarks.membrane import parameter_values
 from benchmarks.peer_delagrange import ABSOLUTE_SHARE
-from delagrange.derive.membrane.load_cases import EMITTED
-from delagrange.derive.pipeline import derive, paper_membrane
+from delagrange.derive.equations.described import description_equations
+from delagrange.derive.papers.sheng_2015.paper import PAPER
 
 RightHandSide = Callable[..., list[float]]
 
@@ -28,14 +28,13 @@ RightHandSide = Callable[..., list[float]]
 @lru_cache
 def right_hand_side(model: str) -> tuple[RightHandSide, list[float], int]:
     """f(t, y, P, E_0, f) of a model, its state at rest, and the place of the first coordinate's rate."""
-    load_case = next(case for case in EMITTED if case.name == model)
-    eom = derive(paper_membrane(), load_case)
+    eom = description_equations(PAPER.description(model))
     time, state = sp.Symbol("time"), [quantity.symbol for quantity in eom.state]
-    force, field = (quantity.symbol for quantity in load_case.inputs)
+    force, field = (quantity.symbol for quantity in eom.load_case.inputs)
     amplitude, frequency = sp.symbols("field_amplitude frequency")
     numbers = dict(zip((quantity.symbol for quantity in eom.parameters), parameter_values(model)))
     drive = {field: amplitude * sp.sin(2 * sp.pi * frequency * time)}
-    rates = [coordinate.rate.symbol for coordinate in load_case.coordinates]
+    rates = [coordinate.rate.symbol for coordinate in eom.load_case.coordinates]
     rows = [
         sp.sympify(row).subs(numbers).subs(drive) for row in (*rates, *eom.acceleration, *eom.internal_rates)
     ]

@@ -128,11 +128,10 @@ def _derived_and_swept(folder: Path, runs: int):
 
     import delagrange
     from delagrange.derive.emit.write_together import write_together
-    from delagrange.derive.model_file.describe import describe
     from delagrange.derive.model_file.file import read_model_file
     from delagrange.derive.pipeline import derive_description
 
-    description = describe(read_model_file(ROOT / "tests" / "models" / "gent_three_branches.toml"))
+    description = read_model_file(ROOT / "tests" / "models" / "gent_three_branches.toml")
     write_together(derive_description(description), folder)
     return delagrange.frequency_response(
         delagrange.load(folder / f"{description.name}.py"), force=0.1, field_amplitude=4e6,

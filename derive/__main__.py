@@ -15,6 +15,7 @@ from pathlib import Path
 from delagrange.derive import pipeline
 from delagrange.derive.check import record
 from delagrange.derive.check.report import as_text, summary
+from delagrange.derive.emit.folder import stale, surplus
 from delagrange.derive.emit.write_together import write_together
 from delagrange.derive.pipeline import Derivation
 
@@ -46,11 +47,10 @@ def main(arguments: list[str] | None = None) -> int:
 
 
 def _run(options: argparse.Namespace) -> int:
-    before = record.recorded()
     walked = pipeline.walk()
     print(as_text(walked.verdicts))
     print(f"\n{summary(walked.verdicts)}")
-    departed = record.departures(walked.verdicts, before)
+    departed = walked.departures
     if options.check:
         return _checked(walked, departed, options.out)
     if departed and not options.record:
@@ -66,10 +66,10 @@ def _run(options: argparse.Namespace) -> int:
 
 def _checked(walked: Derivation, departed: tuple[str, ...], folder: Path) -> int:
     """Name each verdict and each file that is not as it should be."""
-    old, other = pipeline.stale(walked.modules, folder), pipeline.surplus(walked.modules, folder)
+    old, other = stale(walked.modules, folder), surplus(walked.modules, folder)
     _complain_of(departed)
     for name in old:
-        _complain(f"stale: {folder / name} is not what the derivation emits; run `make derive`")
+        _complain(f"stale: {folder / name} is not what the derivation emits; run `delagrange derive`")
     for name in other:
         _complain(f"surplus: {folder / name} holds what the derivation does not emit")
     return 1 if departed or old or other else 0
@@ -77,8 +77,9 @@ def _checked(walked: Derivation, departed: tuple[str, ...], folder: Path) -> int
 
 def _record(walked: Derivation, departed: tuple[str, ...]) -> None:
     """Make the verdicts found the recorded ones, and say what that changes."""
-    path = record.record_path()
-    write_together(((path.name, record.to_json(walked.verdicts)),), path.parent)
+    for each in walked.checked:
+        path = record.record_path(each.paper)
+        write_together(((path.name, record.to_json(each.verdicts)),), path.parent)
     for line in departed:
         print(f"changed in the record: {line}")
     print(f"{len(walked.verdicts)} verdicts recorded, changes: {len(departed)}")

@@ -1,88 +1,35 @@
-"""The whole road, walked once: membrane -> load case -> equations -> verdicts -> kernel -> text."""
+"""The whole road, walked once: description -> membrane -> load case -> equations -> verdicts -> kernel -> text.
+
+Whosever a membrane is, it walks this road. `description_equations` goes as far as to the equations; a description of
+a paper is checked against what that printed, any other has nothing to be checked against.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from difflib import get_close_matches
-from itertools import chain
-from pathlib import Path
 
+from delagrange.derive.check.record import departures, recorded
 from delagrange.derive.check.verdict import Verdict
 from delagrange.derive.check.verify import verify
-from delagrange.derive.emit.targets import emitted
-from delagrange.derive.equations.derived_equations import (
-    check_dimensions,
-    check_model_dimensions,
-    derived_equations,
-)
+from delagrange.derive.emit.targets import Modules, emitted
 from delagrange.derive.equations.described import description_equations
-from delagrange.derive.equations.euler_lagrange import EquationsOfMotion, equations_of_motion
+from delagrange.derive.equations.euler_lagrange import EquationsOfMotion
 from delagrange.derive.kernel.kernel import kernel
 from delagrange.derive.kernel.spec import KernelSpec, Origin
 from delagrange.derive.membrane.checks import check_texts
 from delagrange.derive.membrane.description import Description
-from delagrange.derive.membrane.load_cases import BIAXIAL, EMITTED, LoadCase
-from delagrange.derive.membrane.membrane import Membrane, membrane
-from delagrange.derive.membrane.strain_energy import StrainEnergy, neo_hookean
-from delagrange.derive.notation import symbols as s
-from delagrange.derive.papers.sheng_2015.equations import SHENG_2015
+from delagrange.derive.membrane.strain_energy import StrainEnergy
+from delagrange.derive.papers.paper import Paper, papers
 
-_COMMAND = "delagrange derive"
 _LEAKAGE = "Foo et al. (2012), J. Appl. Phys. 111, 034102"
-_PACKAGE_MARKER = "__init__.py"  # makes the folder a package; it is empty
 
 
-@dataclass(frozen=True)
-class Derivation:
-    """What one walk of the road gives."""
-
-    models: tuple[EquationsOfMotion, ...]  # the unconstrained membrane first
-    verdicts: tuple[Verdict, ...]
-    modules: tuple[tuple[str, str], ...]  # file name, text
+# --- one membrane ----------------------------------------------------------------------------------
 
 
-def paper_membrane() -> Membrane:
-    """The membrane of Sheng et al. (2015): both springs neo-Hookean."""
-    return membrane(neo_hookean(s.SHEAR_MODULUS_ALPHA), neo_hookean(s.SHEAR_MODULUS_BETA))
-
-
-def derive(model: Membrane, load_case: LoadCase) -> EquationsOfMotion:
-    """Equations of motion whose every term, and every part that is emitted, has its unit.
-
-    Raises:
-        DimensionError: a derived term breaks the unit of its equation, or a part has another unit.
-    """
-    eom = equations_of_motion(model, load_case)
-    for equation in derived_equations(eom).values():
-        check_dimensions(equation)
-    check_model_dimensions(eom)
-    return eom
-
-
-def derive_all() -> tuple[EquationsOfMotion, ...]:
-    """Every model of the paper's membrane, the unconstrained one first."""
-    model = paper_membrane()
-    return tuple(derive(model, load_case) for load_case in (BIAXIAL, *EMITTED))
-
-
-def walk() -> Derivation:
-    """Derive all models, check them against the paper, describe and emit those that are emitted."""
-    models = derive_all()
-    verdicts = tuple(verify(eom, SHENG_2015) for eom in models)
-    described = (
-        kernel(eom, found) for eom, found in zip(models, verdicts, strict=True) if eom.load_case in EMITTED
-    )
-    modules = tuple(module for spec in described for module in emitted(spec))
-    return Derivation(models, tuple(chain.from_iterable(verdicts)), modules)
-
-
-def check() -> tuple[Verdict, ...]:
-    """The verdicts alone, without emitting."""
-    return tuple(verdict for eom in derive_all() for verdict in verify(eom, SHENG_2015))
-
-
-def derive_description(description: Description) -> tuple[tuple[str, str], ...]:
-    """File name and text of the modules of a described membrane: NumPy, lanes, variational kernel.
+def derive_description(description: Description) -> Modules:
+    """File name and text of the modules of a membrane: NumPy, lanes, variational kernel.
 
     Raises:
         ValueError: the description is not whole, or at odds with itself or with what emitted code is written with.
@@ -93,35 +40,27 @@ def derive_description(description: Description) -> tuple[tuple[str, str], ...]:
 
 def description_spec(description: Description) -> KernelSpec:
     """The description of the modules of a membrane."""
-    eom = description_equations(description)
+    return _spec(description, description_equations(description))
+
+
+def _spec(
+    description: Description, eom: EquationsOfMotion, verdicts: tuple[Verdict, ...] = (), citation: str = ""
+) -> KernelSpec:
     _check_defaults(description, eom)
     sources = _sources(description)
-    check_texts(description, sources, eom.quantities)
-    origin = Origin(_COMMAND, _body_text(description), "", sources, _start_text(eom.load_case))
-    return kernel(eom, (), origin, description.defaults)
+    check_texts(description, (*sources, citation), eom.quantities)
+    origin = Origin(description.notation.source, citation, sources)
+    return kernel(eom, verdicts, origin, description.defaults)
 
 
 def _check_defaults(description: Description, eom: EquationsOfMotion) -> None:
     names = [parameter.name for parameter in eom.parameters]
-    for name in description.defaults:
+    for name in description.defaults or {}:
         if name not in names:
             near = get_close_matches(name, names, n=1, cutoff=0.0)
             raise ValueError(
                 f"model {description.name}: default of {name}, which is no parameter of it; nearest is {near[0]}"
             )
-
-
-def _body_text(description: Description) -> str:
-    sides = "A square membrane of sides 2 L" if description.body.is_square else (
-        "A rectangular membrane of sides 2 L_1 and 2 L_2"
-    )  # fmt: skip
-    return f"{sides} and thickness 2 H in the reference state"
-
-
-def _start_text(load_case: LoadCase) -> str:
-    if load_case.start is None:
-        return ""
-    return "State at rest where the relation between the stretches begins; dashpots have relaxed to the stretches."
 
 
 def _sources(description: Description) -> tuple[str, ...]:
@@ -132,19 +71,62 @@ def _sources(description: Description) -> tuple[str, ...]:
     return tuple(dict.fromkeys([*own, *leakage, *description.sources]))
 
 
-def stale(modules: tuple[tuple[str, str], ...], folder: Path) -> tuple[str, ...]:
-    """Names of the modules in `folder` that are not, byte for byte, what the derivation emits."""
-    return tuple(name for name, text in modules if not _holds(folder / name, text))
+# --- the papers ------------------------------------------------------------------------------------
 
 
-def surplus(modules: tuple[tuple[str, str], ...], folder: Path) -> tuple[str, ...]:
-    """Names of what stands in `folder` and nothing emits, an `__init__.py` that is not empty among them."""
-    emitted = {name for name, _ in modules}
-    found = sorted(path.name for path in folder.iterdir()) if folder.is_dir() else []
-    marker = folder / _PACKAGE_MARKER
-    allowed = {_PACKAGE_MARKER, "__pycache__"} if _holds(marker, "") else {"__pycache__"}
-    return tuple(name for name in found if name not in emitted | allowed)
+@dataclass(frozen=True)
+class CheckedPaper:
+    """The membranes of a paper, and what its printed equations are beside theirs."""
+
+    paper: Paper
+    models: tuple[EquationsOfMotion, ...]  # one a description
+    verdicts: tuple[Verdict, ...]
+
+    @property
+    def departures(self) -> tuple[str, ...]:
+        """Where the verdicts are not as recorded, a line each; raises as `recorded`."""
+        return departures(self.verdicts, recorded(self.paper))
+
+    @property
+    def modules(self) -> Modules:
+        """What is emitted of it."""
+        walked = zip(self.paper.descriptions, self.models, strict=True)
+        specs = (self._spec(*each) for each in walked if each[0].name not in self.paper.not_emitted)
+        return tuple(module for spec in specs for module in emitted(spec))
+
+    def _spec(self, description: Description, eom: EquationsOfMotion) -> KernelSpec:
+        own = tuple(verdict for verdict in self.verdicts if verdict.model == description.name)
+        return _spec(description, eom, own, self.paper.citation)
 
 
-def _holds(path: Path, text: str) -> bool:
-    return path.is_file() and path.read_bytes() == text.encode("utf-8")
+@dataclass(frozen=True)
+class Derivation:
+    """What one walk of the road gives for the papers."""
+
+    checked: tuple[CheckedPaper, ...]
+    modules: Modules = ()
+
+    @property
+    def verdicts(self) -> tuple[Verdict, ...]:
+        return tuple(verdict for each in self.checked for verdict in each.verdicts)
+
+    @property
+    def departures(self) -> tuple[str, ...]:
+        """Where they are not as recorded, a line each; raises as `recorded`."""
+        return tuple(line for each in self.checked for line in each.departures)
+
+
+def check(of: tuple[Paper, ...] | None = None) -> Derivation:
+    """Derive the membranes of some papers, of all that there are where none are given, and check what they printed."""
+    return Derivation(tuple(_checked(paper) for paper in (papers() if of is None else of)))
+
+
+def walk(of: tuple[Paper, ...] | None = None) -> Derivation:
+    """The same, and emit the modules of the membranes."""
+    found = check(of)
+    return replace(found, modules=tuple(module for each in found.checked for module in each.modules))
+
+
+def _checked(paper: Paper) -> CheckedPaper:
+    models = tuple(description_equations(description) for description in paper.descriptions)
+    return CheckedPaper(paper, models, tuple(verdict for eom in models for verdict in verify(eom, paper)))

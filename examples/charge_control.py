@@ -25,8 +25,7 @@ from matplotlib.figure import Figure
 from shared import MEGA, draw_into, model_of, out_folder
 
 import delagrange as dl
-from delagrange.derive.membrane.description import CHARGE, EQUAL_BIAXIAL, Description, Dielectric, Load
-from delagrange.derive.membrane.materials import ALPHA, MATERIALS
+from delagrange.derive import ALPHA, CHARGE, EQUAL_BIAXIAL, MATERIALS, Description, Dielectric, Load
 from delagrange.figures.style import BLACK, BLUE, VERMILION, caption, new_figure
 
 LARGEST_CHARGE = 0.012  # nominal charge density [C/m^2]

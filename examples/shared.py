@@ -12,11 +12,7 @@ from matplotlib.figure import Figure
 
 import delagrange as dl
 from delagrange.common.files import prepare_folder
-from delagrange.derive.emit.write_together import write_together
-from delagrange.derive.membrane.description import Description
-from delagrange.derive.model_file.describe import describe
-from delagrange.derive.model_file.file import read_model_file
-from delagrange.derive.pipeline import derive_description
+from delagrange.derive import Description, derive_description, read_model_file, write_together
 from delagrange.figures.style import journal_style, save
 
 HERE = Path(__file__).parent
@@ -25,7 +21,7 @@ MEGA = 1e6
 
 def model_of_file(name: str, folder: Path) -> ModuleType:
     """The model of a TOML file beside this one, derived into a folder: as `delagrange derive` does it."""
-    return model_of(describe(read_model_file(HERE / name)), folder)
+    return model_of(read_model_file(HERE / name), folder)
 
 
 def model_of(description: Description, folder: Path) -> ModuleType:

@@ -27,9 +27,7 @@ from matplotlib.figure import Figure
 from shared import MEGA, draw_into, model_of, out_folder
 
 import delagrange as dl
-from delagrange.derive.membrane.description import EQUAL_BIAXIAL, Description, Load
-from delagrange.derive.membrane.material_data import VHB_4910
-from delagrange.derive.notation.more_symbols import PARALLEL_VISCOSITY
+from delagrange.derive import EQUAL_BIAXIAL, PARALLEL_VISCOSITY, VHB_4910, Description, Load
 from delagrange.figures.style import BLACK, BLUE, VERMILION, caption, new_figure
 
 TWO_BRANCHES = replace(VHB_4910, branches=VHB_4910.branches[:2])

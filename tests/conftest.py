@@ -6,6 +6,7 @@ import os
 import pickle
 import subprocess
 import sys
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
@@ -15,7 +16,8 @@ from hypothesis import HealthCheck, settings
 from kept import FOLDER, forget_old, kept, locked
 
 from delagrange.derive.equations.euler_lagrange import EquationsOfMotion
-from delagrange.derive.membrane.load_cases import BIAXIAL, EMITTED, LoadCase
+from delagrange.derive.membrane.membrane import Membrane, membrane
+from delagrange.derive.papers.sheng_2015.paper import PAPER
 from delagrange.derive.pipeline import Derivation
 from delagrange.model import kernels
 
@@ -32,7 +34,6 @@ LONGEST = (  # the first two compile other kernels than each other
     "test_figures.py", "test_compiled_faults.py", "test_relation_statics.py", "test_cli_verify.py", "test_runs.py",
     "test_leakage_engines.py", "test_flow.py",
 )  # fmt: skip
-CASES = {case.name: case for case in (BIAXIAL, *EMITTED)}
 
 
 @cache
@@ -53,8 +54,15 @@ def walked_under(hash_seed: str) -> Derivation:
 
 
 def derived(name: str) -> EquationsOfMotion:
-    """Of the paper's membrane in a load case."""
-    return next(eom for eom in walk().models if eom.load_case == CASES[name])
+    """Of a membrane of the paper."""
+    return next(eom for each in walk().checked for eom in each.models if eom.load_case.name == name)
+
+
+def paper_membrane(alpha=None, beta=None) -> Membrane:
+    """The full membrane of the paper, with other springs where they are given."""
+    paper = PAPER.description("biaxial")
+    branch = replace(paper.branches[0], energy=beta or paper.branches[0].energy)
+    return membrane(replace(paper, equilibrium_spring=alpha or paper.equilibrium_spring, branches=(branch,)))
 
 
 @pytest.fixture(scope="session")
@@ -64,7 +72,7 @@ def walked() -> Derivation:
 
 @pytest.fixture(scope="session")
 def equations():
-    """`equations("uniaxial")` -> EquationsOfMotion of that load case."""
+    """`equations("uniaxial")` -> EquationsOfMotion of that membrane of the paper."""
     return derived
 
 
@@ -91,14 +99,6 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 def pytest_sessionfinish(session: pytest.Session) -> None:
     if not hasattr(session.config, "workerinput"):
         forget_old()
-
-
-@pytest.fixture(scope="session")
-def load_case():
-    def get(name: str) -> LoadCase:
-        return CASES[name]
-
-    return get
 
 
 @pytest.fixture

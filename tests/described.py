@@ -10,7 +10,6 @@ from emitted_once import numpy_module
 from kept import digest
 
 from delagrange.derive.membrane.description import (
-    Body,
     Description,
     Load,
     MaxwellBranch,
@@ -19,6 +18,7 @@ from delagrange.derive.membrane.description import (
     numbered,
 )
 from delagrange.derive.membrane.materials import ALPHA, MATERIALS, branch
+from delagrange.derive.membrane.rectangle import rectangle
 from delagrange.derive.notation import more_symbols as m
 from delagrange.derive.notation import symbols as s
 from delagrange.derive.notation.symbols import Quantity, quantity
@@ -69,7 +69,7 @@ def described(kind: str, alpha: str = "neo-Hookean", *beta: str, **parts) -> Des
     return Description("own", "A membrane", load, MATERIALS[alpha](ALPHA), branches(*beta), **(usual | parts))
 
 
-RECTANGLE = Body(m.HALF_LENGTH_1, m.HALF_LENGTH_2)
+RECTANGLE = rectangle(m.HALF_LENGTH_1, m.HALF_LENGTH_2)
 CURVED = Relation(
     m.STRETCH, (m.STRETCH.value.symbol, 1 + SLOPE.symbol * (m.STRETCH.value.symbol**2 - 1)), sp.Rational(6, 5),
     (True, True), (SLOPE,),

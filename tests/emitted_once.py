@@ -10,7 +10,6 @@ from kept import kept, placed
 import delagrange as dl
 from delagrange.derive.emit.numpy_module import emit
 from delagrange.derive.membrane.description import Description
-from delagrange.derive.model_file.describe import describe
 from delagrange.derive.model_file.file import read_model_file
 from delagrange.derive.pipeline import derive_description, description_spec
 
@@ -19,7 +18,7 @@ def described_in(folder: Path, name: str, text: str) -> Description:
     """What a model file describes, which is written to a folder."""
     file = folder / f"{name}.toml"
     file.write_text(text, encoding="utf-8")
-    return describe(read_model_file(file))
+    return read_model_file(file)
 
 
 def loaded(description: Description, kernels: bool = True) -> ModuleType:

@@ -30,12 +30,12 @@ from delagrange.derive.membrane.description import (
     PURE_SHEAR,
     RELATION,
     UNIAXIAL,
-    Body,
     Description,
     Dielectric,
     Load,
 )
 from delagrange.derive.membrane.materials import ALPHA, MATERIALS
+from delagrange.derive.membrane.rectangle import rectangle
 from delagrange.derive.notation import more_symbols as m
 
 VISCOUS = {"parallel_viscosity": m.PARALLEL_VISCOSITY}
@@ -56,11 +56,11 @@ CONTROLS = {
     "softening, current": Dielectric(SOFTENING, control=CHARGE, leakage=m.CONDUCTIVITY),
 }
 CONSTRAINTS = {
-    "equal-biaxial": (Load(EQUAL_BIAXIAL), Body()),
-    "uniaxial": (Load(UNIAXIAL), Body()),
-    "biaxial": (Load(BIAXIAL), Body()),
+    "equal-biaxial": (Load(EQUAL_BIAXIAL), rectangle()),
+    "uniaxial": (Load(UNIAXIAL), rectangle()),
+    "biaxial": (Load(BIAXIAL), rectangle()),
     "biaxial, rectangle": (Load(BIAXIAL), RECTANGLE),
-    "pure shear": (Load(PURE_SHEAR), Body()),
+    "pure shear": (Load(PURE_SHEAR), rectangle()),
     "pure shear, held": (Load(PURE_SHEAR, lateral_dashpots_free=False), RECTANGLE),
     "relation": (Load(RELATION, relation=CURVED), RECTANGLE),
 }

@@ -46,6 +46,7 @@ def first_order(
         coordinate_count=coordinate_count, state=_quantities(state), inputs=_quantities(inputs),
         parameters=_quantities(parameters), reactions=(), functions=functions,
         reference_state=tuple(map(sp.sympify, start)), formulas=(), verdicts=(), digest="none",
+        quantities=(), body="A system", start="Where it begins.",
     )  # fmt: skip
 
 

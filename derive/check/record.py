@@ -1,4 +1,4 @@
-"""The recorded verdicts: what the check found when it was last looked at by a person."""
+"""The recorded verdicts of a paper: what the check found when it was last looked at by a person."""
 
 from __future__ import annotations
 
@@ -6,11 +6,11 @@ import json
 from collections import Counter
 from collections.abc import Iterable
 from dataclasses import asdict
-from importlib import resources
 from pathlib import Path
 from typing import Any
 
 from delagrange.derive.check.verdict import Outcome, Verdict
+from delagrange.derive.papers.paper import Paper
 
 RECORD = "verdicts.json"
 
@@ -31,18 +31,18 @@ def to_json(verdicts: tuple[Verdict, ...]) -> str:
     return json.dumps([as_record(verdict) for verdict in verdicts], ensure_ascii=False, indent=1) + "\n"
 
 
-def record_path() -> Path:
+def record_path(paper: Paper) -> Path:
     """The record stands beside the printed equations."""
-    return Path(str(resources.files("delagrange.derive.papers.sheng_2015"))) / RECORD
+    return paper.folder / RECORD
 
 
-def recorded() -> list[dict[str, Any]]:
-    """The verdicts as they stand in the record.
+def recorded(paper: Paper) -> list[dict[str, Any]]:
+    """The verdicts as they stand in the record of a paper.
 
     Raises:
         ValueError: the record cannot be read, is not JSON, or an entry lacks its number or model.
     """
-    path = record_path()
+    path = record_path(paper)
     try:
         return _entries(json.loads(path.read_text(encoding="utf-8")))
     except (OSError, ValueError) as error:

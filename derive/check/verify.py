@@ -18,21 +18,18 @@ from delagrange.derive.papers.paper import Paper, PrintedEquation
 from delagrange.derive.printed.dimensions import check_printed
 from delagrange.derive.printed.tree import Equation, walk
 
-# Printed for the general membrane, i.e. before any load case
-_FAMILY = {"biaxial": "membrane"}
 _LONGEST_CORRECTED = 600  # parts of a printed tree; the edits to try, and the time of each, grow with them
 _TOO_LONG = "too long to try what single edit would mend it"
 
 
 def symbols_of(quantities: tuple[Quantity, ...]) -> tuple[sp.Symbol, ...]:
-    """The symbols of the algebra that a printed equation of a model may use."""
+    """The symbols of the algebra that a printed equation may use."""
     return tuple(quantity.symbol for quantity in quantities)
 
 
 def printed_for(eom: EquationsOfMotion, paper: Paper) -> tuple[PrintedEquation, ...]:
     """The printed equations that this model can be checked against."""
-    family = _FAMILY.get(eom.load_case.family, eom.load_case.family)
-    return tuple(equation for equation in paper.equations if equation.load_case == family)
+    return tuple(equation for equation in paper.equations if equation.load == eom.load_case.family)
 
 
 def verify(eom: EquationsOfMotion, paper: Paper) -> tuple[Verdict, ...]:
@@ -40,16 +37,23 @@ def verify(eom: EquationsOfMotion, paper: Paper) -> tuple[Verdict, ...]:
 
     Raises:
         LatexError: a printed equation cannot be read.
+        ValueError: one is said to state what the model does not give.
     """
     derived = derived_equations(eom)
     return tuple(_verdict(printed, derived, paper) for printed in printed_for(eom, paper))
 
 
 def _verdict(printed: PrintedEquation, derived: Mapping[str, DerivedEquation], paper: Paper) -> Verdict:
+    if printed.quantity not in derived:
+        raise ValueError(
+            f"Eq. ({printed.number}) of {paper.citation} states {printed.quantity!r}, which its models do not give; "
+            f"there are {', '.join(derived)}"
+        )
     equation = derived[printed.quantity]
     if printed.latex is None:
         return _missing(printed, equation)
-    verdict = verdict_on(printed.read(paper.table), witness(equation, symbols_of(equation.quantities)))
+    known = symbols_of((*equation.quantities, *paper.table.entries.values()))
+    verdict = verdict_on(printed.read(paper.table), witness(equation, known))
     repairs = (f"read {r.new} for {r.old}" for r in printed.repairs)
     note = "; ".join(filter(None, (verdict.note, printed.note, *repairs)))
     return replace(verdict, number=printed.number, note=note)

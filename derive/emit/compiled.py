@@ -36,7 +36,6 @@ def compiled_view(spec: CompiledSpec, places: Places) -> dict[str, Any]:
     model, validity = spec.model, spec.validity
     return {
         **_CONTROL,
-        "command": model.origin.command,
         "title": model.title,
         "name": model.name,
         "digest": model.digest,

@@ -96,18 +96,6 @@ def _default_lines(defaults: Mapping[str, float]) -> list[str]:
     return [f"    {name!r}: {float(value)!r},".replace("'", '"') for name, value in defaults.items()]
 
 
-def _start_text(spec: KernelSpec) -> str:
-    held = bool(any(value.free_symbols for value in spec.reference_state)) or spec.reactions != ()
-    if spec.origin.start:
-        return spec.origin.start
-    if held:
-        return (
-            "State at rest with the free axis undeformed; a dashpot along the held axis has relaxed "
-            "to its stretch."
-        )
-    return "State at rest in the reference configuration."
-
-
 def _as_float(value: sp.Expr) -> str:
     return f"{value}.0" if value.is_Integer else NUMPY(value)
 
@@ -135,9 +123,7 @@ def _of_parameters(
 
 def _at_rest(spec: KernelSpec) -> list[dict[str, str]]:
     """What is so at rest: the state in which a run begins, and how stiff the springs are."""
-    start = _of_parameters(
-        spec, "reference_state", _start_text(spec), "the units of STATE", spec.reference_state
-    )
+    start = _of_parameters(spec, "reference_state", spec.start, "the units of STATE", spec.reference_state)
     moduli = tuple(spring.shear_modulus for spring in spec.springs)
     text = "Shear modulus of each of SPRINGS at rest."
     return [start, *([_of_parameters(spec, "shear_moduli_at_rest", text, "Pa", moduli)] if moduli else [])]
@@ -166,9 +152,9 @@ def _view(spec: KernelSpec) -> dict[str, Any]:
     """Everything that the template places, ready as text."""
     printer = text_printer(spec.quantities)
     return {
-        "command": spec.origin.command,
-        "body": spec.origin.body,
-        "notation": spec.origin.notation,
+        "body": spec.body,
+        "notation": f", in the notation of {spec.origin.notation}" if spec.origin.notation else "",
+        "citation": spec.origin.citation,
         "sources": "\n".join(_source_line(source) for source in spec.origin.sources),
         "has_defaults": spec.defaults is not None,
         "defaults": "\n".join(_default_lines(spec.defaults or {})),

@@ -10,7 +10,7 @@ from delagrange.derive.kernel.spec import Assignment
 from delagrange.derive.notation.printer import FUNCTIONS, ExpressionPrinter
 
 NUMPY = ExpressionPrinter(
-    {function: f"np.{name}" for function, name in FUNCTIONS.items()}, root="np.sqrt", least="np.minimum"
+    {function: f"np.{name}" for function, name in FUNCTIONS.items()}, root="np.sqrt", least="np.minimum", pi="np.pi"
 )
 PYTHON_WORDS = frozenset({*kwlist, "np", "min", "max", "range"})  # that no quantity may be called in its code
 WIDTH = 110

@@ -8,10 +8,11 @@ from delagrange.derive.emit.target import Target
 from delagrange.derive.emit.variational_module import VARIATIONAL
 from delagrange.derive.kernel.spec import KernelSpec
 
+Modules = tuple[tuple[str, str], ...]  # file name, text
 TARGETS = (NUMPY_MODULE, LANES, VARIATIONAL)
 
 
-def emitted(spec: KernelSpec, targets: tuple[Target, ...] = TARGETS) -> tuple[tuple[str, str], ...]:
+def emitted(spec: KernelSpec, targets: tuple[Target, ...] = TARGETS) -> Modules:
     """File name and text of what is emitted for a model.
 
     Raises:

@@ -9,6 +9,7 @@ from itertools import product
 import sympy as sp
 
 from delagrange.common.dimension import Dimension
+from delagrange.common.roles import Role
 from delagrange.derive.equations.euler_lagrange import EquationsOfMotion
 from delagrange.derive.equations.reactions import at_rest
 from delagrange.derive.notation import symbols as s
@@ -18,7 +19,7 @@ from delagrange.derive.notation.dimensions import (
     check_terms,
     symbol_dimensions,
 )
-from delagrange.derive.notation.symbols import QUANTITIES, Quantity
+from delagrange.derive.notation.symbols import Quantity
 
 
 @dataclass(frozen=True)
@@ -29,7 +30,7 @@ class DerivedEquation:
     quantity: str  # e.g. "equation_of_motion_1"
     unknown: Quantity
     residual: sp.Expr
-    quantities: tuple[Quantity, ...] = QUANTITIES  # all that the residual may be written in
+    quantities: tuple[Quantity, ...]  # all that the residual may be written in
     validity: tuple[sp.Expr, ...] = ()  # [1], each positive where the residual holds
 
 
@@ -71,7 +72,7 @@ def derived_equations(eom: EquationsOfMotion) -> Mapping[str, DerivedEquation]:
 
 def _static_balances(eom: EquationsOfMotion) -> dict[str, tuple[Quantity, sp.Expr]]:
     """The equations of motion at rest, of the coordinates that an applied force works on."""
-    inputs = [each for each in eom.load_case.inputs if each.unit == "N"]
+    inputs = [each for each in eom.load_case.inputs if each.role is Role.FORCE]
     stated = {}
     for number, residual in enumerate(eom.residuals, start=1):
         force = next((each for each in inputs if residual.has(each.symbol)), None)
@@ -98,9 +99,9 @@ def check_model_dimensions(eom: EquationsOfMotion) -> int:
     """Check every part of a model that a module is emitted from, and say how many there are.
 
     These are the energies [J], the mass matrix [kg m^2], the forces [J], the powers [W], the
-    stresses on the dashpots [Pa], the reactions [N], the forces on the edges [N], the flow of the internal
-    variables [1/s] and the Jacobians, whose entry (i, j) has the unit of the rate of state i over that of
-    state or input j.
+    stresses on the dashpots [Pa], the reactions and the forces on the edges, each in its own unit, the flow of the
+    internal variables [1/s], what the electrodes carry and let through, and the Jacobians, whose entry (i, j) has
+    the unit of the rate of state i over that of state or input j.
 
     Raises:
         DimensionError: a term has another unit; the message has the model, the part and the term.
@@ -113,7 +114,7 @@ def check_model_dimensions(eom: EquationsOfMotion) -> int:
 
 
 def _parts(eom: EquationsOfMotion) -> Iterator[_Made]:
-    energy, power, force = (Dimension.of_unit(unit) for unit in ("J", "W", "N"))
+    energy, power = (Dimension.of_unit(unit) for unit in ("J", "W"))
     yield _Made("kinetic_energy", eom.kinetic_energy, energy)
     for part in eom.energies.parts:
         yield _Made(f"potential_energy, {part.name}", part.expression, energy)
@@ -121,16 +122,32 @@ def _parts(eom: EquationsOfMotion) -> Iterator[_Made]:
     for term in eom.force_terms:
         yield from _entries(term.name, term.vector, energy)
     yield from _numbered("internal_rate", eom.internal_rates, Dimension.of_unit("1/s"))
-    yield from _numbered("reaction_force", eom.reaction_forces, force)
-    yield from _numbered("static_reaction_force", eom.static_reaction_forces, force)
-    yield from _numbered("edge_force", eom.edge_forces, force)
+    yield from _forces("reaction_force", eom.reaction_forces, eom.load_case.reactions)
+    yield from _forces("static_reaction_force", eom.static_reaction_forces, eom.load_case.reactions)
+    yield from _forces("edge_force", eom.edge_forces, eom.membrane.forces)
     yield _Made("force_power", eom.force_power, power)
     for number, dashpot in enumerate(eom.dissipation.dashpots, start=1):
         branch = f"_{number}" if len(eom.dissipation.dashpots) > 1 else ""
         yield from _numbered(f"deviatoric_stress{branch}", dashpot.deviators, Dimension.of_unit("Pa"))
     yield from _numbered("validity", eom.validity, Dimension())
     yield _Made("dashpot_power", eom.dashpot_power, power)
+    yield from _electrical_parts(eom)
     yield from _jacobian_entries(eom)
+
+
+def _electrical_parts(eom: EquationsOfMotion) -> Iterator[_Made]:
+    """What the electrodes carry, and what leaks between them."""
+    yield _Made("nominal_electric_field", eom.electrodes.field, Dimension.of_unit("V/m"))
+    yield _Made("nominal_charge_density", eom.electrodes.charge, Dimension.of_unit("C/m^2"))
+    if (balance := eom.charge_balance) is not None:
+        yield _Made("nominal_charge_density_rate", balance.law, Dimension.of_unit("A/m^2"))
+        yield _Made("source_power", balance.source_density, Dimension.of_unit("W/m^3"))
+        yield _Made("leakage_power", balance.leakage_density, Dimension.of_unit("W/m^3"))
+
+
+def _forces(name: str, expressions: tuple[sp.Expr, ...], forces: tuple[Quantity, ...]) -> Iterator[_Made]:
+    for number, (expression, force) in enumerate(zip(expressions, forces, strict=True), start=1):
+        yield _Made(f"{name}_{number}", expression, Dimension.of_unit(force.unit))
 
 
 def _numbered(name: str, expressions: tuple[sp.Expr, ...], dimension: Dimension) -> Iterator[_Made]:

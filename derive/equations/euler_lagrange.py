@@ -26,12 +26,15 @@ from delagrange.derive.membrane.constraint import (
     loads,
     tidy,
 )
+from delagrange.derive.membrane.description import REACTION_IN_POTENTIAL
 from delagrange.derive.membrane.dissipation import RayleighTerm
 from delagrange.derive.membrane.electrostatics import ChargeBalance, Electrodes
 from delagrange.derive.membrane.energies import Energies, EnergyPart
-from delagrange.derive.membrane.load_cases import REACTION_IN_POTENTIAL, LoadCase
-from delagrange.derive.membrane.membrane import Membrane, time_derivative
-from delagrange.derive.notation.symbols import QUANTITIES, Quantity, TimeDependent
+from delagrange.derive.membrane.load_case import LoadCase
+from delagrange.derive.membrane.membrane import Membrane
+from delagrange.derive.notation import symbols as s
+from delagrange.derive.notation.symbols import Quantity, TimeDependent
+from delagrange.derive.notation.time_derivative import time_derivative
 
 __all__ = ["EquationsOfMotion", "ForceTerm", "equations_of_motion", "euler_lagrange", "kinematics"]
 
@@ -69,7 +72,7 @@ class EquationsOfMotion:
     internal_rates: tuple[sp.Expr, ...]  # d xi/dt [1/s]
     reaction_forces: tuple[sp.Expr, ...]  # in q, q', q'' [N]
     static_reaction_forces: tuple[sp.Expr, ...]  # the same at rest [N]
-    edge_forces: tuple[sp.Expr, sp.Expr]  # on axes 1 and 2, what balances springs and field at rest [N]
+    edge_forces: tuple[sp.Expr, ...]  # one a coordinate of the body, what balances springs and field at rest
     force_power: sp.Expr  # power of the applied forces [W]
     dissipation: Dissipation  # in the dashpots, and in what has a Rayleigh dissipation function
     validity: tuple[sp.Expr, ...]  # [1], each positive where a strain energy holds
@@ -79,7 +82,11 @@ class EquationsOfMotion:
     input_jacobian: sp.ImmutableMatrix  # of the first-order system by the inputs, (n_state, n_inputs)
     electrodes: Electrodes  # nominal field and nominal charge density
     charge_balance: ChargeBalance | None = None  # of a membrane that leaks
-    quantities: tuple[Quantity, ...] = QUANTITIES  # all that the expressions are written in
+
+    @property
+    def quantities(self) -> tuple[Quantity, ...]:
+        """All that the expressions are written in, each once."""
+        return quantities_of(self.membrane, self.load_case)
 
     @property
     def potential_energy(self) -> sp.Expr:
@@ -115,6 +122,19 @@ def state_of(load_case: LoadCase, balance: ChargeBalance | None = None) -> tuple
         *(internal.value for internal in load_case.internals),
         *(() if balance is None else (balance.charge,)),
     )
+
+
+def quantities_of(model: Membrane, load_case: LoadCase) -> tuple[Quantity, ...]:
+    """All quantities that the equations of a model are written in, each once."""
+    moving = (*load_case.coordinates, *load_case.internals)
+    parts = (part for each in moving for part in (each.value, each.rate, each.acceleration))
+    balance = model.charge_balance
+    charge = () if balance is None else (balance.charge, balance.rate)
+    known = (
+        *parts, *charge, *load_case.inputs, *model.parameters, *load_case.parameters, *load_case.reactions,
+        s.KINETIC_ENERGY, s.POTENTIAL_ENERGY,
+    )  # fmt: skip
+    return tuple(dict.fromkeys(known))
 
 
 # --- the first-order system ------------------------------------------------------------------------
@@ -200,23 +220,19 @@ def force_power(energies: Energies, coordinates: tuple[TimeDependent, ...]) -> s
 # --- all together ----------------------------------------------------------------------------------
 
 
-def equations_of_motion(
-    model: Membrane, load_case: LoadCase, quantities: tuple[Quantity, ...] = QUANTITIES
-) -> EquationsOfMotion:
+def equations_of_motion(model: Membrane, load_case: LoadCase) -> EquationsOfMotion:
     """Constrain the membrane, vary, and collect what follows.
-
-    `quantities`: the table of the model, where it is not that of the paper.
 
     Raises:
         ValueError: the constraint is at odds with the law of the dashpots.
     """
     substitution = kinematics(model, load_case) | loads(model, load_case)
-    coordinates, printed = load_case.coordinates, load_case.formulation == REACTION_IN_POTENTIAL
+    coordinates, inserted = load_case.coordinates, load_case.formulation == REACTION_IN_POTENTIAL
     kinetic = tidy(constrain(model.kinetic_energy, substitution))
     with_reactions = model.energies.mapped(lambda _, part: tidy(constrain(part, substitution)))
     reactions = reaction_forces(model, load_case)
     static = tuple(tidy(at_rest(reaction, coordinates)) for reaction in reactions)
-    if printed:
+    if inserted:
         energies = with_reaction_in_potential(with_reactions, model, load_case, substitution)
     else:
         workless = {reaction.symbol: 0 for reaction in load_case.reactions}
@@ -224,7 +240,7 @@ def equations_of_motion(
     residuals = euler_lagrange(kinetic - energies.total, coordinates)
     mass = mass_matrix(residuals, coordinates)
     lost = dissipation(model, load_case, substitution)
-    remark = ", with its share of the inserted reaction" if printed else ""
+    remark = ", with its share of the inserted reaction" if inserted else ""
     forces = force_terms(kinetic, energies, coordinates, lost.rayleigh, remark)
     rates = internal_rates(model, load_case, substitution)
     force = sum((term.vector for term in forces), sp.zeros(len(coordinates), 1))
@@ -246,7 +262,7 @@ def equations_of_motion(
         mass_matrix=mass,
         force_terms=forces,
         internal_rates=rates,
-        reaction_forces=static if printed else reactions,
+        reaction_forces=static if inserted else reactions,
         static_reaction_forces=static,
         edge_forces=edge_forces(model, substitution),
         force_power=force_power(energies, coordinates),
@@ -258,7 +274,6 @@ def equations_of_motion(
         input_jacobian=first_order_jacobian(mass, unbalanced_by_inputs, flows, load_case, inputs),
         electrodes=model.electrodes.mapped(settled),
         charge_balance=balance,
-        quantities=quantities,
     )
 
 

@@ -8,9 +8,10 @@ import sympy as sp
 
 from delagrange.derive.membrane.constraint import Substitution, constrain, tidy
 from delagrange.derive.membrane.dissipation import RayleighTerm
-from delagrange.derive.membrane.load_cases import LoadCase
-from delagrange.derive.membrane.membrane import Membrane, time_derivative
+from delagrange.derive.membrane.load_case import LoadCase
+from delagrange.derive.membrane.membrane import Membrane
 from delagrange.derive.notation.symbols import Quantity, TimeDependent
+from delagrange.derive.notation.time_derivative import time_derivative
 
 
 @dataclass(frozen=True)
@@ -18,22 +19,21 @@ class DashpotLoss:
     """What a branch's dashpot loses: deviatoric stresses [Pa] times strain rates [1/s], a volume.
 
     A dashpot that flows has its deviatoric stress over 2 eta as its strain rate, one whose inelastic stretch
-    is held has none; the third follows from incompressibility.
+    is held has none; what is left follows from incompressibility.
     """
 
     viscosity: Quantity
-    deviators: tuple[sp.Expr, sp.Expr, sp.Expr]
-    flowing: tuple[bool, bool]  # along axes 1, 2
+    deviators: tuple[sp.Expr, ...]  # along all three axes
+    flowing: tuple[bool, ...]  # along the axes of the body's coordinates
 
-    def strain_rates(self, deviators: tuple[sp.Expr, ...]) -> tuple[sp.Expr, sp.Expr, sp.Expr]:
+    def strain_rates(self, deviators: tuple[sp.Expr, ...]) -> tuple[sp.Expr, ...]:
         """Strain rates in terms of deviatoric stresses, given as expressions or as names."""
-        flow = [deviator / (2 * self.viscosity.symbol) for deviator in deviators]
+        flow = tuple(deviator / (2 * self.viscosity.symbol) for deviator in deviators)
         if all(self.flowing):
-            return flow[0], flow[1], flow[2]
-        first, second = (
-            rate if moves else sp.S.Zero for rate, moves in zip(flow, self.flowing, strict=False)
-        )
-        return first, second, -first - second
+            return flow
+        own = [rate if moves else sp.S.Zero for rate, moves in zip(flow, self.flowing, strict=False)]
+        rest = len(flow) - len(own)
+        return (*own, *[-sp.Add(*own) / rest] * rest)
 
     @property
     def power_density(self) -> sp.Expr:
@@ -60,14 +60,13 @@ class Dissipation:
 def dissipation(model: Membrane, load_case: LoadCase, substitution: Substitution) -> Dissipation:
     """What the membrane loses under a load case."""
     internals = {internal.value.symbol for internal in load_case.internals}
-    inelastic = load_case.inelastic_stretches
+    inelastic, axes = load_case.inelastic_stretches, len(model.coordinates)
     losses = []
     for number, each in enumerate(model.dashpots):
-        first, second, third = (tidy(constrain(deviator, substitution)) for deviator in each.deviators)
-        along_1, along_2 = (
-            bool(xi.free_symbols & internals) for xi in inelastic[2 * number : 2 * number + 2]
-        )
-        losses.append(DashpotLoss(each.viscosity, (first, second, third), (along_1, along_2)))
+        deviators = tuple(tidy(constrain(deviator, substitution)) for deviator in each.deviators)
+        own = inelastic[number * axes : (number + 1) * axes]
+        flowing = tuple(bool(xi.free_symbols & internals) for xi in own)
+        losses.append(DashpotLoss(each.viscosity, deviators, flowing))
     rayleigh = (
         replace(term, function=tidy(constrain(term.function, substitution))) for term in model.rayleigh
     )

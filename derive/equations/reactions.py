@@ -13,7 +13,7 @@ from delagrange.derive.membrane.constraint import (
     tidy,
 )
 from delagrange.derive.membrane.energies import Energies
-from delagrange.derive.membrane.load_cases import LoadCase
+from delagrange.derive.membrane.load_case import LoadCase
 from delagrange.derive.membrane.membrane import Membrane
 from delagrange.derive.notation.symbols import Quantity, TimeDependent
 
@@ -50,8 +50,8 @@ def reaction_forces(model: Membrane, load_case: LoadCase) -> tuple[sp.Expr, ...]
     return tuple(found)
 
 
-def edge_forces(model: Membrane, substitution: Substitution) -> tuple[sp.Expr, sp.Expr]:
-    """The force on each edge that balances springs and field at rest [N]: applied, or of what holds the axis.
+def edge_forces(model: Membrane, substitution: Substitution) -> tuple[sp.Expr, ...]:
+    """The force on each coordinate that balances springs and field at rest: applied, or of what holds the axis.
 
     From the full membrane, whatever the formulation of the load case: of the virtual work along one axis,
     d(Pi without the forces)/d lambda_i = P_i times the lever of the force.
@@ -59,12 +59,12 @@ def edge_forces(model: Membrane, substitution: Substitution) -> tuple[sp.Expr, s
     forces = model.energies["forces"]
     inner = model.energies.total - forces
 
-    def balancing(axis: int) -> sp.Expr:
-        stretch, force = model.coordinates[axis].value.symbol, model.forces[axis].symbol
+    def balancing(stretch: sp.Symbol, force: sp.Symbol) -> sp.Expr:
         lever = -forces.diff(stretch, force)
         return tidy(constrain(inner.diff(stretch) / lever, substitution))
 
-    return balancing(0), balancing(1)
+    pairs = zip(model.coordinates, model.forces, strict=True)
+    return tuple(balancing(coordinate.value.symbol, force.symbol) for coordinate, force in pairs)
 
 
 def at_rest(expression: sp.Expr, coordinates: tuple[TimeDependent, ...]) -> sp.Expr:

@@ -8,7 +8,7 @@ from delagrange.derive.equations.euler_lagrange import EquationsOfMotion
 from delagrange.derive.equations.internal_rates import DashpotLoss
 from delagrange.derive.kernel.function import kernel_function
 from delagrange.derive.kernel.spec import Assignment, KernelFunction
-from delagrange.derive.membrane.load_cases import REACTION_IN_POTENTIAL
+from delagrange.derive.membrane.description import REACTION_IN_POTENTIAL
 from delagrange.derive.notation import symbols as s
 
 _POTENTIAL_NAMES = {"forces": "force_potential", "electrostatic": "electrostatic_energy"}
@@ -59,8 +59,8 @@ def potential(eom: EquationsOfMotion) -> KernelFunction:
         for part in eom.energies.parts
     )
     total = sp.Add(*(sp.Symbol(name) for name, _ in parts), evaluate=True)
-    printed = eom.load_case.formulation == REACTION_IN_POTENTIAL
-    inserted = ", each with its share of the inserted reaction" if printed else ""
+    has_reaction = eom.load_case.formulation == REACTION_IN_POTENTIAL
+    inserted = ", each with its share of the inserted reaction" if has_reaction else ""
     drive = "field" if eom.membrane.field == s.FIELD else "charge"
     return kernel_function(
         eom,

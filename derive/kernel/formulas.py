@@ -13,7 +13,7 @@ Formulas = tuple[tuple[sp.Expr, sp.Expr], ...]  # left = right, in the symbols o
 
 
 def governing_equations(eom: EquationsOfMotion) -> Formulas:
-    """The governing equations in the notation of the paper, for the docstring."""
+    """The governing equations in the notation of the model, for the docstring."""
     load_case, balance = eom.load_case, eom.charge_balance
     inertia = eom.mass_matrix * sp.Matrix([c.acceleration.symbol for c in load_case.coordinates])
     return (

@@ -10,12 +10,12 @@ from delagrange.derive.equations.euler_lagrange import EquationsOfMotion
 from delagrange.derive.kernel.powers import share_powers
 from delagrange.derive.kernel.shared import share_subexpressions
 from delagrange.derive.kernel.spec import Assignment, KernelFunction
-from delagrange.derive.notation.symbols import QUANTITIES, Quantity
+from delagrange.derive.notation.symbols import Quantity
 
 _VOLUME = sp.Symbol("volume", positive=True)
 
 
-def named(expression: sp.Expr, quantities: tuple[Quantity, ...] = QUANTITIES) -> sp.Expr:
+def named(expression: sp.Expr, quantities: tuple[Quantity, ...]) -> sp.Expr:
     """Replace the symbols of the algebra by the names that code uses."""
     names = {quantity.symbol: sp.Symbol(quantity.name) for quantity in quantities}
     return expression.xreplace(names)

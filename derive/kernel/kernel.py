@@ -15,8 +15,8 @@ from delagrange.derive.kernel.electrode_functions import charge_assignments, cha
 from delagrange.derive.kernel.energy_functions import dashpot_power, potential, validity
 from delagrange.derive.kernel.formulas import digest, governing_equations
 from delagrange.derive.kernel.function import kernel_function
-from delagrange.derive.kernel.reference_state import reference_state, springs_at_rest
-from delagrange.derive.kernel.spec import PAPER, Assignment, KernelFunction, KernelSpec, Origin
+from delagrange.derive.kernel.reference_state import reference_state, springs_at_rest, start_text
+from delagrange.derive.kernel.spec import Assignment, KernelFunction, KernelSpec, Origin
 
 
 def _entry(name: str, *indices: int, size: int) -> str:
@@ -187,13 +187,14 @@ def _input_jacobian(eom: EquationsOfMotion) -> KernelFunction:
 
 
 def _edge_forces(eom: EquationsOfMotion) -> KernelFunction:
-    names = ("edge_force_1", "edge_force_2")
+    names = tuple(f"edge_force_{axis}" for axis in range(1, len(eom.edge_forces) + 1))
+    body = eom.membrane.body
     return kernel_function(
         eom,
         "edge_forces",
-        "Force on each edge normal to axes 1 and 2 that balances springs and field at rest, pulling if positive.",
-        "N",
-        (2,),
+        f"Force on {body.on_edges} that balances springs and field at rest, pulling if positive.",
+        ", ".join(dict.fromkeys(force.unit for force in body.forces)),
+        (len(names),),
         [Assignment(name, force) for name, force in zip(names, eom.edge_forces, strict=True)],
         [sp.Symbol(name) for name in names],
     )
@@ -213,9 +214,8 @@ def _reactions(eom: EquationsOfMotion) -> tuple[KernelFunction, ...]:
         kernel_function(
             eom,
             "reaction_forces",
-            "Forces that hold the constrained axes"
-            + ("." if moving else ", without inertia as in the paper."),
-            "N",
+            "Forces that hold the constrained axes" + ("." if moving else ", without inertia."),
+            ", ".join(dict.fromkeys(reaction.unit for reaction in reactions)),
             (len(reactions),),
             assignments,
             [reaction.symbol for reaction in reactions],
@@ -239,8 +239,8 @@ def _mass(eom: EquationsOfMotion) -> KernelFunction:
 
 def kernel(
     eom: EquationsOfMotion,
-    verdicts: tuple[Verdict, ...],
-    origin: Origin = PAPER,
+    verdicts: tuple[Verdict, ...] = (),
+    origin: Origin | None = None,
     defaults: Mapping[str, float] | None = None,
 ) -> KernelSpec:
     """Describe the module of one model, with the verdicts on the printed equations it was checked against."""
@@ -256,7 +256,7 @@ def kernel(
         _scalar(eom, "force_power", "Power that the applied forces put in.", "W", eom.force_power),
         dashpot_power(eom),
         *charge_powers(eom),
-        *(() if origin == PAPER else (electrodes(eom),)),
+        electrodes(eom),
         *_reactions(eom),
         _edge_forces(eom),
         kernel_function(
@@ -283,7 +283,9 @@ def kernel(
         verdicts=verdicts,
         digest=digest(formulas),
         quantities=eom.quantities,
-        origin=origin,
+        body=eom.membrane.body.text,
+        start=start_text(eom),
+        origin=origin or Origin(),
         defaults=defaults,
         springs=springs_at_rest(eom),
     )

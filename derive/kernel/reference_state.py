@@ -19,7 +19,8 @@ def reference_state(eom: EquationsOfMotion) -> tuple[sp.Expr, ...]:
     at_start = dict(zip((c.value.symbol for c in load_case.coordinates), begin, strict=True))
     stretches = [stretch.subs(at_start) for stretch in load_case.stretches]
     relaxed = {
-        xi: stretches[place % 2] for place, xi in reversed([*enumerate(load_case.inelastic_stretches)])
+        xi: stretches[place % len(stretches)]
+        for place, xi in reversed([*enumerate(load_case.inelastic_stretches)])
     }
     uncharged = () if eom.charge_balance is None else (sp.Integer(0),)
     flowing = (relaxed[internal.value.symbol] for internal in load_case.internals)
@@ -37,3 +38,15 @@ def springs_at_rest(eom: EquationsOfMotion) -> tuple[SpringAtRest, ...]:
         )
         for name, energy in eom.membrane.springs
     )
+
+
+def start_text(eom: EquationsOfMotion) -> str:
+    """What that state is, in a sentence."""
+    if eom.load_case.start is not None:
+        return "State at rest where the relation between the stretches begins; dashpots have relaxed to the stretches."
+    if eom.load_case.reactions:
+        return (
+            "State at rest with the free axis undeformed; a dashpot along the held axis has relaxed "
+            "to its stretch."
+        )
+    return "State at rest in the reference configuration."

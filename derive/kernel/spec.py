@@ -7,12 +7,12 @@ intermediate values. `kernel` fills it; `emit` places it.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import sympy as sp
 
 from delagrange.derive.check.verdict import Verdict
-from delagrange.derive.notation.symbols import QUANTITIES, Quantity
+from delagrange.derive.notation.symbols import Quantity
 
 
 @dataclass(frozen=True)
@@ -53,20 +53,11 @@ class SpringAtRest:
 
 @dataclass(frozen=True)
 class Origin:
-    """What a module says of where it comes from."""
+    """What a module says of where it comes from, beside its equations."""
 
-    command: str  # that makes it again
-    body: str  # the membrane in a sentence
-    notation: str  # of the governing equations, "" where they speak for themselves
+    notation: str = ""  # whose notation the governing equations have, "" where they speak for themselves
+    citation: str = ""  # of what printed the equations that it was checked against
     sources: tuple[str, ...] = ()  # of energies and values
-    start: str = ""  # what `reference_state` is, where it is not the plain one
-
-
-PAPER = Origin(
-    "make derive",
-    "A square membrane of sides 2 L and thickness 2 H in the reference state",
-    ", in the notation of Sheng et al. (2015), J. Appl. Phys., doi:10.1063/1.4913384",
-)
 
 
 @dataclass(frozen=True)
@@ -85,10 +76,14 @@ class KernelSpec:
     reactions: tuple[Quantity, ...]
     functions: tuple[KernelFunction, ...]
     reference_state: tuple[sp.Expr, ...]
-    formulas: tuple[tuple[sp.Expr, sp.Expr], ...]  # governing equations, left = right, in the paper's symbols
+    formulas: tuple[
+        tuple[sp.Expr, sp.Expr], ...
+    ]  # governing equations, left = right, in the symbols of the algebra
     verdicts: tuple[Verdict, ...]
     digest: str
-    quantities: tuple[Quantity, ...] = QUANTITIES  # all that the formulas are written in
-    origin: Origin = PAPER
+    quantities: tuple[Quantity, ...]  # all that the formulas are written in
+    body: str  # what it is, a sentence without its full stop
+    start: str  # what `reference_state` is
+    origin: Origin = field(default_factory=Origin)
     defaults: Mapping[str, float] | None = None  # values of parameters by name; None: the module has none
     springs: tuple[SpringAtRest, ...] = ()

@@ -5,6 +5,7 @@ from __future__ import annotations
 from itertools import combinations
 from keyword import iskeyword
 
+from delagrange.derive.membrane.body import check_body
 from delagrange.derive.membrane.description import CHARGE, VOLTAGE, Description
 from delagrange.derive.notation.symbols import Quantity
 
@@ -30,11 +31,16 @@ def check_description(description: Description) -> None:
             f"model {name}: leakage under voltage control changes no motion, since the source holds the field; "
             f"allowed is leakage under {CHARGE} control"
         )
+    axes = description.body.edges
     for attachment in description.attachments:
-        if attachment.axis not in (1, 2):
-            raise ValueError(
-                f"model {name}: something is attached to axis {attachment.axis}; allowed are 1 and 2"
-            )
+        if attachment.axis not in axes:
+            allowed = f"allowed are {' and '.join(map(str, axes))}" if axes else "the body has no edges"
+            raise ValueError(f"model {name}: something is attached to axis {attachment.axis}; {allowed}")
+    if description.medium_damping is not None and not description.body.faces:
+        raise ValueError(
+            f"model {name}: a medium damps a body that has no faces; allowed is one without damping"
+        )
+    check_body(description.body)
 
 
 def check_names(model: str, quantities: tuple[Quantity, ...]) -> None:
@@ -56,16 +62,15 @@ def check_names(model: str, quantities: tuple[Quantity, ...]) -> None:
             )
 
 
-def check_texts(
-    description: Description, sources: tuple[str, ...], quantities: tuple[Quantity, ...]
-) -> None:
+def check_texts(description: Description, sources: tuple[str, ...], quantities: tuple[Quantity, ...]) -> None:
     """What stands between quotation marks in emitted code must not end there.
 
     Raises:
         ValueError: a title, a source, or what a quantity says of itself is not such a text.
     """
     said = [text for each in quantities for text in (each.text, each.unit, each.meaning)]
-    for text in (description.title, *sources, *said):
+    own = (description.title, description.remark, description.notation.source, description.body.text)
+    for text in (*own, *sources, *said):
         if not text.isprintable() or set(text) & set('"\\'):
             raise ValueError(
                 f"model {description.name}: the text {text!a}; allowed are printable characters in one line, "

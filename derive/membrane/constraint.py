@@ -10,9 +10,10 @@ from collections.abc import Mapping
 
 import sympy as sp
 
-from delagrange.derive.membrane.load_cases import LoadCase
-from delagrange.derive.membrane.membrane import Membrane, time_derivative
+from delagrange.derive.membrane.load_case import LoadCase
+from delagrange.derive.membrane.membrane import Membrane
 from delagrange.derive.notation.symbols import TimeDependent
+from delagrange.derive.notation.time_derivative import time_derivative
 
 Substitution = Mapping[sp.Symbol, sp.Expr]
 

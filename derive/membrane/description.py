@@ -1,7 +1,7 @@
 """What a membrane is, as a person describes it: the pieces that the derivation starts from.
 
-A description holds no equation of motion and no load-specific symbol of the paper. Energies and quantities
-are given whole; `derive.pipeline.derive_description` walks the road from here to emitted modules.
+A description holds no equation of motion. Energies and quantities are given whole;
+`delagrange.derive.pipeline.derive_description` walks the road from here to emitted modules, for everybody.
 
 Names of quantities: a membrane with one Maxwell branch has `shear_modulus_beta`, `viscosity`,
 `inelastic_stretch_1`; with several, the number of the branch follows the name of a parameter
@@ -17,28 +17,19 @@ from types import MappingProxyType
 
 import sympy as sp
 
+from delagrange.derive.membrane.body import Body
+from delagrange.derive.membrane.rectangle import rectangle
 from delagrange.derive.membrane.strain_energy import StrainEnergy, Stretches
 from delagrange.derive.notation import symbols as s
 from delagrange.derive.notation.symbols import Quantity, TimeDependent
 
 VOLTAGE, CHARGE = "voltage", "charge"  # what the electrodes are driven by
-EQUAL_BIAXIAL, UNIAXIAL, BIAXIAL, PURE_SHEAR, RELATION = (
-    "equal_biaxial", "uniaxial", "biaxial", "pure_shear", "relation",
+# Of loads on two axes, but the last, which leaves every coordinate of any body free
+EQUAL_BIAXIAL, UNIAXIAL, BIAXIAL, PURE_SHEAR, RELATION, FREE = (
+    "equal_biaxial", "uniaxial", "biaxial", "pure_shear", "relation", "free",
 )  # fmt: skip
-
-
-@dataclass(frozen=True)
-class Body:
-    """A rectangular membrane of sides 2 L_1, 2 L_2 and thickness 2 H in the reference state."""
-
-    half_length_1: Quantity = s.HALF_LENGTH
-    half_length_2: Quantity = s.HALF_LENGTH  # the same quantity for a square membrane
-    half_thickness: Quantity = s.HALF_THICKNESS
-    density: Quantity = s.DENSITY
-
-    @property
-    def is_square(self) -> bool:
-        return self.half_length_1 == self.half_length_2
+# Of the equations where a frame holds an axis: its force does no work, or is put into the potential first
+CONSTRAINED_VARIATION, REACTION_IN_POTENTIAL = "consistent", "as_printed"
 
 
 @dataclass(frozen=True)
@@ -95,16 +86,26 @@ class Load:
     kind: str
     lateral_dashpots_free: bool = True  # in pure shear: whether dashpots flow along the held axis
     relation: Relation | None = None  # of the kind `relation`
+    formulation: str = CONSTRAINED_VARIATION
+
+
+@dataclass(frozen=True)
+class Notation:
+    """How what moves is written, where it is not as usual: as many as the load leaves free, in its order."""
+
+    coordinates: tuple[TimeDependent, ...] = ()
+    internals: tuple[TimeDependent, ...] = ()  # inelastic stretches that flow, branch by branch
+    source: str = ""  # whose notation it is
 
 
 @dataclass(frozen=True)
 class Attachment:
-    """What sits on the two edges normal to an axis: a mass and a spring on each, or one of them.
+    """What sits on the edges of a body along an axis: a mass and a spring on each, or one of them.
 
     The springs are relaxed in the reference state of the membrane and act along the axis.
     """
 
-    axis: int  # 1 or 2
+    axis: int  # from 1; of a body that has edges there
     mass: Quantity | None = None  # of each edge [kg]
     stiffness: Quantity | None = None  # of the spring on each edge [N/m]
 
@@ -118,15 +119,17 @@ class Description:
     load: Load
     equilibrium_spring: StrainEnergy
     branches: tuple[MaxwellBranch, ...] = ()
-    body: Body = field(default_factory=Body)
+    body: Body = field(default_factory=rectangle)
     dielectric: Dielectric = field(default_factory=Dielectric)
     parallel_viscosity: Quantity | None = None  # of a Kelvin-Voigt dashpot beside all springs [Pa s]
     medium_damping: Quantity | None = None  # traction on the two faces over their velocity [Pa s/m]
     attachments: tuple[Attachment, ...] = ()
-    defaults: Mapping[str, float] = field(
+    defaults: Mapping[str, float] | None = field(
         default_factory=lambda: MappingProxyType({})
-    )  # values of parameters by name [their SI units]
+    )  # values of parameters by name [their SI units]; None: the module has no table of them
     sources: tuple[str, ...] = ()  # where energies and values come from
+    notation: Notation = field(default_factory=Notation)
+    remark: str = ""  # what a user of the emitted module must know; "": what the load says of itself
 
 
 def numbered(quantity: Quantity, number: int) -> Quantity:

@@ -13,7 +13,8 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from delagrange.derive.membrane.description import Body, MaxwellBranch
+from delagrange.derive.membrane.body import Body, Face, square
+from delagrange.derive.membrane.description import MaxwellBranch
 from delagrange.derive.membrane.strain_energy import Stretches
 from delagrange.derive.notation import symbols as s
 from delagrange.derive.notation.symbols import Quantity, TimeDependent
@@ -25,7 +26,7 @@ class Dashpot:
 
     viscosity: Quantity  # [Pa s]
     deviators: Stretches  # deviatoric stresses on it [Pa]
-    rates: tuple[sp.Expr, ...]  # d xi_i/dt along axes 1, 2 [1/s]
+    rates: tuple[sp.Expr, ...]  # d xi_i/dt along the axes of the body's coordinates [1/s]
 
 
 @dataclass(frozen=True)
@@ -37,13 +38,13 @@ class RayleighTerm:
     function: sp.Expr  # R [W], quadratic in the rates
 
 
-def elastic_stretches(
-    stretches: Stretches,
-    internals: tuple[TimeDependent, ...] = (s.INELASTIC_STRETCH_1, s.INELASTIC_STRETCH_2),
-) -> Stretches:
-    """Stretches of spring beta, lambda_i^e = lambda_i / xi_i, with xi_1 xi_2 xi_3 = 1."""
-    xi_1, xi_2 = (internal.value.symbol for internal in internals)
-    return stretches[0] / xi_1, stretches[1] / xi_2, stretches[2] * xi_1 * xi_2
+def elastic_stretches(body: Body, internals: tuple[TimeDependent, ...]) -> Stretches:
+    """Stretches of spring beta, lambda_i^e = lambda_i / xi_i; the xi_i are related as the stretches of the body are."""
+    inelastic = body.stretches_of(internals)
+    first, second, third = (
+        stretch / xi for stretch, xi in zip(body.principal_stretches, inelastic, strict=True)
+    )
+    return first, second, third
 
 
 def deviators(stresses: Stretches) -> Stretches:
@@ -59,35 +60,37 @@ def dashpot_strain_rates(stresses: Stretches, viscosity: Quantity = s.VISCOSITY)
     return first, second, third
 
 
-def dashpot(branch: MaxwellBranch, stretches: Stretches, internals: tuple[TimeDependent, ...]) -> Dashpot:
+def dashpot(branch: MaxwellBranch, body: Body, internals: tuple[TimeDependent, ...]) -> Dashpot:
     """The dashpot of a branch whose inelastic stretches are `internals`."""
-    stresses = branch.energy.cauchy_stresses(elastic_stretches(stretches, internals))
+    stresses = branch.energy.cauchy_stresses(elastic_stretches(body, internals))
     strain_rates = dashpot_strain_rates(stresses, branch.viscosity)
     rates = tuple(
-        internal.value.symbol * rate for internal, rate in zip(internals, strain_rates[:2], strict=True)
+        internal.value.symbol * rate for internal, rate in zip(internals, strain_rates, strict=False)
     )
     return Dashpot(branch.viscosity, deviators(stresses), rates)
 
 
-def parallel_dashpot(
-    viscosity: Quantity, stretches: Stretches, rates: tuple[sp.Expr, ...], volume: sp.Expr
-) -> RayleighTerm:
+def parallel_dashpot(viscosity: Quantity, body: Body, volume: sp.Expr) -> RayleighTerm:
     """Kelvin-Voigt: R = eta V sum of d_i^2 with the rates of deformation d_i = lambda_i'/lambda_i.
 
     The stress is 2 eta d_i, as in the dashpots of the branches.
     """
-    deformation = [rate / stretch for rate, stretch in zip(rates, stretches, strict=True)]
-    power = sum((rate**2 for rate in deformation), sp.Integer(0))
-    return RayleighTerm("parallel_dashpot", "the parallel dashpot", viscosity.symbol * volume * power)
+    stretches = body.principal_stretches
+    deformation = [rate / stretch for rate, stretch in zip(body.velocity(stretches), stretches, strict=True)]
+    return RayleighTerm(
+        "parallel_dashpot", "the parallel dashpot", viscosity.symbol * volume * square(deformation)
+    )
 
 
-def medium_drag(damping: Quantity, rates: tuple[sp.Expr, ...], body: Body) -> RayleighTerm:
-    """A medium on both faces: traction c v against the velocity v of each point, per area of reference.
+def medium_drag(damping: Quantity, body: Body) -> RayleighTerm:
+    """A medium on the faces: traction c v against the velocity v of each point, per area of reference.
 
-    R = c/2 times the integral of v^2 over both faces, with v = (lambda_1' X, lambda_2' Y, lambda_3' H).
+    R = c/2 times the integral of v^2 over all faces.
     """
-    length_1, length_2 = body.half_length_1.symbol, body.half_length_2.symbol
-    mean_squares = (length_1**2 / 3, length_2**2 / 3, body.half_thickness.symbol**2)
-    square = sum((mean * rate**2 for mean, rate in zip(mean_squares, rates, strict=True)), sp.Integer(0))
-    faces = 2 * (2 * length_1) * (2 * length_2)
-    return RayleighTerm("medium", "the surrounding medium", damping.symbol / 2 * faces * square)
+
+    def lost(face: Face) -> sp.Expr:
+        components = body.velocity(face.place)
+        return face.count * sum((face.domain.integral(each**2) for each in components), sp.Integer(0))
+
+    function = damping.symbol / 2 * sum(map(lost, body.faces))
+    return RayleighTerm("medium", "the surrounding medium", function)

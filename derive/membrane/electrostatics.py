@@ -18,8 +18,6 @@ from delagrange.derive.notation import more_symbols as m
 from delagrange.derive.notation import symbols as s
 from delagrange.derive.notation.symbols import Quantity
 
-_PLACE = (s.MATERIAL_X.symbol, s.MATERIAL_Y.symbol, s.MATERIAL_Z.symbol)
-
 
 @dataclass(frozen=True)
 class Electrodes:
@@ -88,10 +86,8 @@ def electrodes(stretches: Stretches, dielectric: Dielectric) -> Electrodes:
     return Electrodes(field, -density.diff(field))
 
 
-def charge_balance(
-    stretches: Stretches, dielectric: Dielectric, place: tuple[sp.Expr, ...]
-) -> ChargeBalance | None:
-    """Ohm's law in the deformed membrane, whose points are at `place` [m]; None where nothing leaks.
+def charge_balance(stretches: Stretches, dielectric: Dielectric) -> ChargeBalance | None:
+    """Ohm's law in the deformed membrane; None where nothing leaks.
 
     The true current density is the conductivity times the true field, which is the voltage over the deformed
     thickness, and flows through the deformed area.
@@ -99,11 +95,10 @@ def charge_balance(
     if dielectric.leakage is None:
         return None
     nominal_field = electrodes(stretches, dielectric).field
-    deformation = sp.Matrix(place).jacobian(_PLACE)
-    true_field = nominal_field / deformation[2, 2]
+    true_field = nominal_field / stretches[2]
     true_current = dielectric.leakage.symbol * true_field
     return ChargeBalance(
-        leakage_current=true_current * deformation[:2, :2].det(),
+        leakage_current=true_current * (stretches[0] * stretches[1]),
         source_density=m.CURRENT_DENSITY.symbol * nominal_field,
-        leakage_density=true_current * true_field * deformation.det(),
+        leakage_density=true_current * true_field * sp.Mul(*stretches),
     )

@@ -2,8 +2,7 @@
 
 `MATERIALS["Gent"](ALPHA)` is the Gent energy of the equilibrium spring with its parameters
 `shear_modulus_alpha` and `locking_alpha`; `MATERIALS["Gent"](branch(2, of=3))` that of the second of three
-Maxwell branches, with `shear_modulus_beta_2` and `locking_beta_2`. Quantities that
-`delagrange.derive.notation.symbols` has are those of its table.
+Maxwell branches, with `shear_modulus_beta_2` and `locking_beta_2`.
 """
 
 from __future__ import annotations
@@ -26,9 +25,11 @@ from delagrange.derive.membrane.strain_energy import (
     ogden,
     yeoh,
 )
-from delagrange.derive.notation.symbols import QUANTITIES, Quantity
+from delagrange.derive.notation import symbols as s
+from delagrange.derive.notation.symbols import Quantity
 
 MOST_OGDEN_TERMS = 9
+_SHEAR_MODULI = (s.SHEAR_MODULUS_ALPHA, s.SHEAR_MODULUS_BETA)  # these say more of their springs
 
 
 @dataclass(frozen=True)
@@ -62,14 +63,14 @@ class ParameterKind:
     text: str
     latex: str
     unit: str
-    meaning: str  # "locking limit": the meaning then goes on "of spring α"
+    meaning: str  # "shear modulus of {}", the spring's name in the braces
     role: Role = Role.CONSTANT
     positive: bool = True  # whether its symbol is; False where published fits have either sign
 
     def of(self, spring: Spring) -> Quantity:
-        """The quantity of a spring; the symbol table's own where it has one."""
+        """The quantity of a spring."""
         name = f"{self.name}_{spring.letter}"
-        known = next((quantity for quantity in QUANTITIES if quantity.name == name), None)
+        known = next((quantity for quantity in _SHEAR_MODULI if quantity.name == name), None)
         quantity = known or self._made(name, spring)
         return quantity if spring.number is None else numbered(quantity, spring.number)
 
@@ -81,7 +82,7 @@ class ParameterKind:
             f"{self.text}^{_GREEK[spring.letter]}",
             rf"{self.latex}^{{\{spring.letter}}}",
             self.unit,
-            f"{self.meaning} of spring {_GREEK[spring.letter]}",
+            self.meaning.format(f"spring {_GREEK[spring.letter]}"),
             self.role,
             usual_sign(self.role),
         )
@@ -131,14 +132,14 @@ def _modulus(
 
 def _ogden_term(term: int) -> tuple[ParameterKind, ...]:
     return (
-        _modulus("ogden_modulus", "ogden_mu", term, f"modulus of Ogden term {term}", positive=False),
+        _modulus("ogden_modulus", "ogden_mu", term, f"modulus of Ogden term {term} of {{}}", positive=False),
         ParameterKind(
             f"ogden_exponent_{term}",
             f"ogden_a_{term}",
             f"a_{term}",
             f"a_{{{term}}}",
             "1",
-            f"exponent of Ogden term {term}",
+            f"exponent of Ogden term {term} of {{}}",
             Role.EXPONENT,
             positive=False,
         ),
@@ -152,27 +153,27 @@ def _yeoh_coefficient(power: int) -> ParameterKind:
         f"C_{power}",
         f"C_{{{power}}}",
         "Pa",
-        f"coefficient of (I_1 - 3){'' if power == 1 else f'^{power}'}",
+        f"coefficient of (I_1 - 3){'' if power == 1 else f'^{power}'} of {{}}",
         Role.MODULUS,
         positive=power == 1,
     )
 
 
-_SHEAR_MODULUS = _modulus("shear_modulus", "mu", None, "shear modulus")
+_SHEAR_MODULUS = _modulus("shear_modulus", "mu", None, "shear modulus of {}")
 _SECOND_MODULUS = ParameterKind(
-    "second_modulus", "mu_2", "μ_2", r"\mu_{2}", "Pa", "second modulus", Role.MODULUS
+    "second_modulus", "mu_2", "μ_2", r"\mu_{2}", "Pa", "second modulus of {}", Role.MODULUS
 )
 _LOCKING = ParameterKind(
-    "locking", "J", "J", "J", "1", "locking limit, of its first invariant less 3,", Role.LOCKING_LIMIT
+    "locking", "J", "J", "J", "1", "locking limit of {}, of its first invariant less 3", Role.LOCKING_LIMIT
 )
-_CHAIN_MODULUS = _modulus("chain_modulus", "chain_mu", None, "modulus of the chains")
+_CHAIN_MODULUS = _modulus("chain_modulus", "chain_mu", None, "modulus of the chains of {}")
 _LOCKING_STRETCH = ParameterKind(
     "locking_stretch",
     "lambda_m",
     "λ_m",
     r"\lambda_{m}",
     "1",
-    "stretch of a chain at its full length,",
+    "stretch of a chain at its full length, of {}",
     Role.LOCKING_LIMIT,
 )
 

@@ -35,7 +35,7 @@
     mass = "0.1 g"
     stiffness = "2 N/m"
 
-A value is a number in SI units, or a text with its unit. `derive.model_loads` says what a load may hold.
+A value is a number in SI units, or a text with its unit. `loads` says what a load may hold.
 """
 
 from __future__ import annotations
@@ -44,42 +44,31 @@ import keyword
 import math
 import re
 import sys
+from importlib import resources
 from pathlib import Path
+from types import MappingProxyType
 
-import sympy as sp
-
-from delagrange.common.dimension import Dimension
 from delagrange.common.units import shown, with_unit
-from delagrange.derive.membrane.description import CHARGE, EQUAL_BIAXIAL, VOLTAGE
-from delagrange.derive.membrane.load_cases import EMITTED
-from delagrange.derive.membrane.own_energy import check_functions
-from delagrange.derive.model_file.entries import (
-    AttachmentEntry,
-    BodyEntry,
-    BranchEntry,
-    Constant,
-    DielectricEntry,
-    LoadEntry,
-    ModelFile,
+from delagrange.derive.membrane.body import Body
+from delagrange.derive.membrane.description import (
+    EQUAL_BIAXIAL,
+    Attachment,
+    Description,
+    Load,
+    MaxwellBranch,
+    numbered,
 )
+from delagrange.derive.membrane.materials import ALPHA, Spring, branch
+from delagrange.derive.membrane.rectangle import rectangle
+from delagrange.derive.model_file.dielectric import read_dielectric
 from delagrange.derive.model_file.loads import held_axes, read_load
-from delagrange.derive.model_file.number_at import number_at
-from delagrange.derive.model_file.springs import (
-    STRETCH_NAMES,
-    STRETCHES,
-    assumed,
-    at_rest,
-    constants,
-    formula,
-    modulus_at_rest,
-    plain_text,
-    read_spring,
-)
+from delagrange.derive.model_file.springs import ReadSpring, read_spring
 from delagrange.derive.model_file.toml_table import Table, read_toml
 from delagrange.derive.notation import more_symbols as m
 from delagrange.derive.notation import symbols as s
-from delagrange.derive.notation.dimensions import dimension_of
 from delagrange.derive.notation.symbols import Quantity
+
+Values = dict[str, float]  # of parameters by name [SI]
 
 MOST_BRANCHES = 9  # more would make the names of inelastic stretches ambiguous
 _NAME = re.compile("[a-z][a-z0-9_]{0,39}")
@@ -94,10 +83,11 @@ _MODULES = (
 )  # that a folder would hide
 _KERNELS = ("_lanes", "_variational")  # endings of the kernels beside a module
 _TABLES = ("body", "equilibrium_spring", "branch", "dielectric", "damping", "load", "attachment")
+_DAMPING = (("parallel_viscosity", m.PARALLEL_VISCOSITY), ("medium", m.MEDIUM_DAMPING))
 
 
-def read_model_file(path: Path) -> ModelFile:
-    """Read and check a model file.
+def read_model_file(path: Path) -> Description:
+    """Read and check a model file: the membrane that it describes, with its values as defaults.
 
     Raises:
         ModelError: anything in it that is not understood, is missing, does not fit, or does not make a
@@ -105,19 +95,28 @@ def read_model_file(path: Path) -> ModelFile:
     """
     whole = read_toml(path)
     whole.only("name", "title", "sources", *_TABLES)
-    load = read_load(_present(whole, "load"))
-    return ModelFile(
-        name=_name(whole),
-        title=plain_text(whole, "title"),
-        sources=_sources(whole),
-        body=_body(_present(whole, "body"), load),
-        equilibrium_spring=_equilibrium_spring(_present(whole, "equilibrium_spring")),
-        branches=_branches(whole),
-        dielectric=_dielectric(_present(whole, "dielectric")),
-        parallel_viscosity=_damping(whole, "parallel_viscosity", m.PARALLEL_VISCOSITY),
-        medium_damping=_damping(whole, "medium", m.MEDIUM_DAMPING),
+    load, of_load = read_load(_present(whole, "load"))
+    name, title, sources = _name(whole), whole.plain_text("title"), _sources(whole)
+    body, of_body = _body(_present(whole, "body"), load)
+    equilibrium = _equilibrium_spring(_present(whole, "equilibrium_spring"))
+    branches, of_branches = _branches(whole)
+    dielectric, of_dielectric = read_dielectric(_present(whole, "dielectric"))
+    damping = _damping(whole)
+    attachments, of_attachments = _attachments(whole, load)
+    values = of_body | of_dielectric | equilibrium.values | of_branches | damping | of_load | of_attachments
+    return Description(
+        name=name,
+        title=title,
         load=load,
-        attachments=_attachments(whole, load),
+        equilibrium_spring=equilibrium.energy,
+        branches=branches,
+        body=body,
+        dielectric=dielectric,
+        parallel_viscosity=m.PARALLEL_VISCOSITY if m.PARALLEL_VISCOSITY.name in damping else None,
+        medium_damping=m.MEDIUM_DAMPING if m.MEDIUM_DAMPING.name in damping else None,
+        attachments=attachments,
+        defaults=MappingProxyType(values),
+        sources=sources,
     )
 
 
@@ -132,7 +131,8 @@ def _name(whole: Table) -> str:
     if not _NAME.fullmatch(name) or keyword.iskeyword(name) or name.endswith(_KERNELS):
         allowed = "up to 40 of a-z, 0-9 and _, the first a letter, no word of Python, not ending in "
         whole.refuse(f"name must be {allowed}{' or '.join(_KERNELS)}, got {shown(name)}", "name")
-    if name in sys.stdlib_module_names or name in (*_MODULES, *(case.name for case in EMITTED)):
+    built_in = (each.name.removesuffix(".py") for each in resources.files("delagrange.generated").iterdir())
+    if name in sys.stdlib_module_names or name in (*_MODULES, *built_in):
         whole.refuse(f"name {name!r} is that of another module; choose one of your own", "name")
     return name
 
@@ -140,10 +140,10 @@ def _name(whole: Table) -> str:
 def _sources(whole: Table) -> tuple[str, ...]:
     if "sources" not in whole:
         return ()
-    return tuple(plain_text(whole, "sources", each) for each in whole.sequence("sources"))
+    return tuple(whole.plain_text("sources", each) for each in whole.sequence("sources"))
 
 
-def _body(table: Table, load: LoadEntry) -> BodyEntry:
+def _body(table: Table, load: Load) -> tuple[Body, Values]:
     table.only("half_length", "half_length_1", "half_length_2", "half_thickness", "density")
     square = table.one_of("half_length", "half_length_1") == "half_length"
     if square and "half_length_2" in table:
@@ -153,33 +153,42 @@ def _body(table: Table, load: LoadEntry) -> BodyEntry:
         table.refuse(
             "the sides of a membrane under equal-biaxial load are equal: give half_length", "half_length_1"
         )
-    return BodyEntry(
-        table.value_of("half_length" if square else "half_length_1", s.HALF_LENGTH),
-        None if square else table.value_of("half_length_2", m.HALF_LENGTH_2),
-        table.value_of("half_thickness", s.HALF_THICKNESS),
-        table.value_of("density", s.DENSITY),
-    )
+    body = rectangle() if square else rectangle(m.HALF_LENGTH_1, m.HALF_LENGTH_2)
+    return body, {each.name: table.value_of(each.name, each) for each in body.parameters}
 
 
-def _equilibrium_spring(table: Table):
+def _equilibrium_spring(table: Table) -> ReadSpring:
     for key in ("viscosity", "relaxation_time"):
         if key in table:
             table.refuse(f"the equilibrium spring has no dashpot: {key} belongs in a [[branch]]", key)
-    return read_spring(table)
+    return read_spring(table, ALPHA)
 
 
-def _branches(whole: Table) -> tuple[BranchEntry, ...]:
+def _branches(whole: Table) -> tuple[tuple[MaxwellBranch, ...], Values]:
     tables = whole.tables("branch")
     if len(tables) > MOST_BRANCHES:
         tables[MOST_BRANCHES].refuse(f"a membrane has at most {MOST_BRANCHES} branches, got {len(tables)}")
-    return tuple(_branch(table) for table in tables)
+    made = [_branch(table, branch(number, of=len(tables))) for number, table in enumerate(tables, start=1)]
+    return tuple(each for each, _ in made), {
+        name: value for _, values in made for name, value in values.items()
+    }
 
 
-def _branch(table: Table) -> BranchEntry:
-    spring = read_spring(table)
+def _branch(table: Table, spring: Spring) -> tuple[MaxwellBranch, Values]:
+    read, viscosity = read_spring(table, spring), _viscosity(spring)
+    values = {**read.values, viscosity.name: _viscosity_value(table, read)}
+    return MaxwellBranch(read.energy, viscosity), values
+
+
+def _viscosity(spring: Spring) -> Quantity:
+    return s.VISCOSITY if spring.number is None else numbered(s.VISCOSITY, spring.number)
+
+
+def _viscosity_value(table: Table, spring: ReadSpring) -> float:
+    """In Pa s, as it stands or from the relaxation time."""
     if table.one_of("viscosity", "relaxation_time") == "viscosity":
-        return BranchEntry(spring, table.value_of("viscosity", s.VISCOSITY))
-    time, modulus = table.number("relaxation_time", "s"), modulus_at_rest(spring)
+        return table.value_of("viscosity", s.VISCOSITY)
+    time, modulus = table.number("relaxation_time", "s"), spring.modulus_at_rest
     viscosity = time * modulus
     if not 0 < viscosity < math.inf:
         table.refuse(
@@ -187,69 +196,31 @@ def _branch(table: Table) -> BranchEntry:
             f"shear modulus {with_unit(modulus, 'Pa')}; allowed is one that is positive and finite",
             "relaxation_time",
         )
-    return BranchEntry(spring, viscosity)
+    return viscosity
 
 
-def _dielectric(table: Table) -> DielectricEntry:
-    table.only("permittivity", "permittivity_formula", "parameters", "control", "conductivity")
-    control = table.choice("control", (VOLTAGE, CHARGE), default=VOLTAGE)
-    conductivity = _conductivity(table, control)
-    if table.one_of("permittivity", "permittivity_formula") == "permittivity":
-        if "parameters" in table:
-            table.refuse("parameters belong to a permittivity_formula, and there is none", "parameters")
-        return DielectricEntry(table.value_of("permittivity", s.PERMITTIVITY), (), control, conductivity)
-    own = constants(table.table("parameters"), tuple(STRETCH_NAMES))
-    symbols = {each.name: sp.Symbol(each.name) for each in own}
-    law = formula(table, "permittivity_formula", {**STRETCH_NAMES, **symbols})
-    dimensions = {stretch: Dimension() for stretch in STRETCHES}
-    dimensions |= {symbols[each.name]: Dimension.of_unit(each.unit) for each in own}
-    _check_permittivity(table, law, dimensions, own)
-    return DielectricEntry(table.text("permittivity_formula"), own, control, conductivity)
-
-
-def _conductivity(table: Table, control: str) -> float | None:
-    if "conductivity" not in table:
-        return None
-    if control != CHARGE:
-        table.refuse(f"conductivity needs control = {shown(CHARGE)}: under voltage control the source holds the "
-                     "field, and leakage changes no motion", "conductivity")  # fmt: skip
-    return table.value_of("conductivity", m.CONDUCTIVITY)
-
-
-def _check_permittivity(
-    table: Table, law: sp.Expr, dimensions: dict[sp.Symbol, Dimension], own: tuple[Constant, ...]
-) -> None:
-    key = "permittivity_formula"
-    try:
-        check_functions("the formula", law.subs({sp.Symbol(each.name): assumed(each) for each in own}))
-        found = dimension_of(law, dimensions)
-    except ValueError as error:
-        table.refuse(f"{key}: {error}", key)
-    if found != Dimension.of_unit("F/m"):
-        table.refuse(f"{key} has the dimension {found}; needed is F/m ({Dimension.of_unit('F/m')})", key)
-    if not (value := number_at(law, at_rest(own))) > 0:
-        table.refuse(f"{key} must be positive and finite at rest, got {with_unit(value, 'F/m')}", key)
-
-
-def _damping(whole: Table, key: str, quantity: Quantity) -> float | None:
+def _damping(whole: Table) -> Values:
     table = whole.table("damping")
-    table.only("parallel_viscosity", "medium")
-    return table.value_of(key, quantity) if key in table else None
+    table.only(*(key for key, _ in _DAMPING))
+    return {made.name: table.value_of(key, made) for key, made in _DAMPING if key in table}
 
 
-def _attachments(whole: Table, load: LoadEntry) -> tuple[AttachmentEntry, ...]:
-    found: list[AttachmentEntry] = []
+def _attachments(whole: Table, load: Load) -> tuple[tuple[Attachment, ...], Values]:
+    found: list[Attachment] = []
+    values: Values = {}
     for table in whole.tables("attachment"):
-        entry = _attachment(table, held_axes(load))
-        if load.kind == EQUAL_BIAXIAL and entry.axis is not None:
+        attachments, own = _attachment(table, held_axes(load))
+        if load.kind == EQUAL_BIAXIAL and len(attachments) == 1:
             table.refuse("under equal-biaxial load all four edges carry the same: leave the axis out", "axis")
-        if any(entry.axis is None or other.axis in (None, entry.axis) for other in found):
+        if {each.axis for each in attachments} & {each.axis for each in found}:
             table.refuse(f"{table.title} over-determines edges that another one is on already")
-        found.append(entry)
-    return tuple(found)
+        found += attachments
+        values |= own
+    return tuple(found), values
 
 
-def _attachment(table: Table, held: tuple[int, ...]) -> AttachmentEntry:
+def _attachment(table: Table, held: tuple[int, ...]) -> tuple[tuple[Attachment, ...], Values]:
+    """One on each axis; on all four edges alike, one quantity stands for both axes."""
     table.only("axis", "mass", "stiffness")
     axis = table.values.get("axis")
     if axis is not None and (isinstance(axis, bool) or axis not in (1, 2)):
@@ -258,8 +229,9 @@ def _attachment(table: Table, held: tuple[int, ...]) -> AttachmentEntry:
         table.refuse(f"the edges normal to axis {held[0]} are held: nothing attached to them moves", "axis")
     if "mass" not in table and "stiffness" not in table:
         table.refuse(f"{table.title} needs a mass, a stiffness or both")
-    return AttachmentEntry(
-        None if axis is None else int(axis),
-        table.value_of("mass", m.EDGE_MASS) if "mass" in table else None,
-        table.value_of("stiffness", m.EDGE_STIFFNESS) if "stiffness" in table else None,
-    )
+    both = (m.EDGE_MASS, m.EDGE_STIFFNESS)
+    mass, stiffness = both if axis is None else (m.EDGE_MASSES[axis - 1], m.EDGE_STIFFNESSES[axis - 1])
+    given = {key: made for key, made in (("mass", mass), ("stiffness", stiffness)) if key in table}
+    axes = (1, 2) if axis is None else (int(axis),)
+    values = {made.name: table.value_of(key, made) for key, made in given.items()}
+    return tuple(Attachment(each, **given) for each in axes), values

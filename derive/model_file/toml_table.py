@@ -110,6 +110,20 @@ class Table:
             self.refuse(f"{key} must be a text that is not empty, got {shown(value)}", key)
         return value
 
+    def plain_text(self, key: str, value: object = None) -> str:
+        """A text that can stand in a comment of emitted code: one line, no quotation marks, no backslash."""
+        text = self.text(key) if value is None else value
+        fine = (
+            isinstance(text, str)
+            and 0 < len(text) <= 200
+            and text.isprintable()
+            and not set(text) & set('"\\`{}')
+        )
+        if not fine:
+            allowed = 'up to 200 printable characters in one line, without " \\ ` { }'
+            self.refuse(f"{key} must be a text of {allowed}, got {shown(text)}", key)
+        return text
+
     def choice(self, key: str, allowed: Iterable[str], default: str | None = None) -> str:
         """A text that is one of those allowed."""
         allowed = tuple(allowed)

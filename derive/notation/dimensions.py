@@ -13,7 +13,7 @@ from typing import TypeVar
 import sympy as sp
 
 from delagrange.common.dimension import Dimension
-from delagrange.derive.notation.symbols import QUANTITIES, Quantity
+from delagrange.derive.notation.symbols import Quantity
 
 _Item = TypeVar("_Item", bound=Hashable)
 
@@ -39,8 +39,8 @@ class TermDimension:
     ok: bool
 
 
-def symbol_dimensions(quantities: tuple[Quantity, ...] = QUANTITIES) -> dict[sp.Symbol, Dimension]:
-    """The dimension of every symbol of a table of quantities, that of the paper where none is given."""
+def symbol_dimensions(quantities: tuple[Quantity, ...]) -> dict[sp.Symbol, Dimension]:
+    """The dimension of the symbol of each quantity."""
     return {quantity.symbol: Dimension.of_unit(quantity.unit) for quantity in quantities}
 
 

@@ -13,7 +13,7 @@ from operator import attrgetter
 import sympy as sp
 from sympy.core.function import Application
 
-from delagrange.derive.notation.symbols import QUANTITIES, Quantity
+from delagrange.derive.notation.symbols import Quantity
 
 _KNOWN = (sp.log, sp.exp, sp.sin, sp.cos, sp.tan, sp.sinh, sp.cosh, sp.tanh)
 FUNCTIONS: Mapping[type, str] = {function: function.__name__ for function in _KNOWN}  # that a law may be made of
@@ -27,7 +27,8 @@ class ExpressionPrinter:
 
     `functions` maps SymPy function classes to what they are called; `name_of` names a symbol; `times`
     stands between factors; `power` writes a base raised to a positive integer, `raised` stands between the
-    base and the exponent of any other power; `root` names the square root, `least` the lesser of two.
+    base and the exponent of any other power; `root` names the square root, `least` the lesser of two and `pi`
+    the number.
     """
 
     functions: Mapping[type, str]
@@ -37,6 +38,7 @@ class ExpressionPrinter:
     raised: str = "**"
     root: str = "sqrt"
     least: str = "min"
+    pi: str = "pi"
 
     def __call__(self, expression: sp.Expr) -> str:
         return self._visit(expression)[0]
@@ -110,6 +112,8 @@ class ExpressionPrinter:
     def _function(self, expression: sp.Expr) -> str:
         if isinstance(expression, sp.Min):
             return self._least(sorted(expression.args, key=sp.default_sort_key))
+        if expression is sp.pi:
+            return self.pi
         if expression is sp.E:
             return f"{self.functions[sp.exp]}(1)"
         for function, name in self.functions.items():
@@ -155,7 +159,5 @@ def text_printer(quantities: tuple[Quantity, ...]) -> ExpressionPrinter:
         power=_raised,
         raised="^",
         root="√",
+        pi="π",
     )
-
-
-PAPER_TEXT = text_printer(QUANTITIES)

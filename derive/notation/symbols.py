@@ -2,7 +2,7 @@
 
 The notation is that of Sheng et al. (2015), J. Appl. Phys., doi:10.1063/1.4913384. Every other
 module takes its symbols from here, so that two symbols are the same if and only if they are meant
-to be the same.
+to be the same. There is no table of all of them: a model carries its own quantities.
 """
 
 from __future__ import annotations
@@ -96,18 +96,6 @@ def moving(
     )
 
 
-# Time and place
-TIME = quantity("t", "time", "t", "t", "s", "time", Role.TIME, positive=False)
-MATERIAL_X = quantity(
-    "X", "material_x", "X", "X", "m", "material coordinate in the plane, axis 1", Role.PLACE, positive=False
-)
-MATERIAL_Y = quantity(
-    "Y", "material_y", "Y", "Y", "m", "material coordinate in the plane, axis 2", Role.PLACE, positive=False
-)
-MATERIAL_Z = quantity(
-    "Z", "material_z", "Z", "Z", "m", "material coordinate through the thickness", Role.PLACE, positive=False
-)
-
 # The membrane
 HALF_LENGTH = quantity(
     "L",
@@ -145,44 +133,6 @@ SHEAR_MODULUS_BETA = quantity(
 )
 VISCOSITY = quantity(
     "eta", "viscosity", "η", r"\eta", "Pa s", "viscosity of the dashpot, τ_v μ^β", Role.VISCOSITY
-)
-
-# Further constants of the strain energies
-SECOND_MODULUS_ALPHA = quantity(
-    "mu_2_alpha",
-    "second_modulus_alpha",
-    "μ_2^α",
-    r"\mu_{2}^{\alpha}",
-    "Pa",
-    "second modulus of spring α",
-    Role.MODULUS,
-)
-SECOND_MODULUS_BETA = quantity(
-    "mu_2_beta",
-    "second_modulus_beta",
-    "μ_2^β",
-    r"\mu_{2}^{\beta}",
-    "Pa",
-    "second modulus of spring β",
-    Role.MODULUS,
-)
-LOCKING_ALPHA = quantity(
-    "J_alpha",
-    "locking_alpha",
-    "J^α",
-    r"J^{\alpha}",
-    "1",
-    "locking limit of spring α, of its first invariant less 3",
-    Role.LOCKING_LIMIT,
-)
-LOCKING_BETA = quantity(
-    "J_beta",
-    "locking_beta",
-    "J^β",
-    r"J^{\beta}",
-    "1",
-    "locking limit of spring β, of its first invariant less 3",
-    Role.LOCKING_LIMIT,
 )
 
 # What drives it
@@ -234,57 +184,7 @@ INELASTIC_STRETCH_2 = moving(
     Role.INELASTIC_STRETCH,
 )
 
-# The coordinates of each load case
-STRETCH_EB = moving("lambda_EB", "stretch", "λ_EB", r"\lambda_{EB}", "in-plane stretch", Role.STRETCH)
-INELASTIC_STRETCH_EB = moving(
-    "xi_EB",
-    "inelastic_stretch",
-    "ξ_EB",
-    r"\xi_{EB}",
-    "inelastic stretch of the dashpot",
-    Role.INELASTIC_STRETCH,
-)
-
-STRETCH_UA1 = moving(
-    "lambda_UA1", "stretch_1", "λ_UA1", r"\lambda_{UA1}", "stretch along the force", Role.STRETCH
-)
-STRETCH_UA2 = moving(
-    "lambda_UA2", "stretch_2", "λ_UA2", r"\lambda_{UA2}", "stretch across the force", Role.STRETCH
-)
-INELASTIC_STRETCH_UA1 = moving(
-    "xi_UA1",
-    "inelastic_stretch_1",
-    "ξ_UA1",
-    r"\xi_{UA1}",
-    "inelastic stretch of the dashpot along the force",
-    Role.INELASTIC_STRETCH,
-)
-INELASTIC_STRETCH_UA2 = moving(
-    "xi_UA2",
-    "inelastic_stretch_2",
-    "ξ_UA2",
-    r"\xi_{UA2}",
-    "inelastic stretch of the dashpot across the force",
-    Role.INELASTIC_STRETCH,
-)
-
-STRETCH_PS = moving("lambda_PS", "stretch", "λ_PS", r"\lambda_{PS}", "stretch along the force", Role.STRETCH)
-INELASTIC_STRETCH_PS = moving(
-    "xi_PS",
-    "inelastic_stretch",
-    "ξ_PS",
-    r"\xi_{PS}",
-    "inelastic stretch of the dashpot along the force",
-    Role.INELASTIC_STRETCH,
-)
-INELASTIC_STRETCH_PS2 = moving(
-    "xi_PS2",
-    "inelastic_stretch_2",
-    "ξ_PS2",
-    r"\xi_{PS2}",
-    "inelastic stretch of the dashpot along the held axis",
-    Role.INELASTIC_STRETCH,
-)
+# What a frame holds
 HELD_STRETCH = quantity(
     "lambda_2p",
     "held_stretch",
@@ -309,32 +209,3 @@ POTENTIAL_ENERGY = quantity(
     Role.ENERGY,
     positive=False,
 )
-
-_CONSTANTS_AND_INPUTS = (
-    TIME, MATERIAL_X, MATERIAL_Y, MATERIAL_Z,
-    HALF_LENGTH, HALF_THICKNESS, DENSITY, PERMITTIVITY, SHEAR_MODULUS_ALPHA, SHEAR_MODULUS_BETA, VISCOSITY,
-    SECOND_MODULUS_ALPHA, SECOND_MODULUS_BETA, LOCKING_ALPHA, LOCKING_BETA,
-    FORCE_1, FORCE_2, FORCE, FIELD, REACTION_2, HELD_STRETCH, KINETIC_ENERGY, POTENTIAL_ENERGY,
-)  # fmt: skip
-_MOVING = (
-    STRETCH_1, STRETCH_2, INELASTIC_STRETCH_1, INELASTIC_STRETCH_2,
-    STRETCH_EB, INELASTIC_STRETCH_EB,
-    STRETCH_UA1, STRETCH_UA2, INELASTIC_STRETCH_UA1, INELASTIC_STRETCH_UA2,
-    STRETCH_PS, INELASTIC_STRETCH_PS, INELASTIC_STRETCH_PS2,
-)  # fmt: skip
-
-QUANTITIES: tuple[Quantity, ...] = _CONSTANTS_AND_INPUTS + tuple(
-    part for each in _MOVING for part in (each.value, each.rate, each.acceleration)
-)
-
-
-def quantity_of(symbol: sp.Symbol) -> Quantity:
-    """The quantity that a symbol stands for.
-
-    Raises:
-        KeyError: the symbol is not in the table.
-    """
-    for known in QUANTITIES:
-        if known.symbol == symbol:
-            return known
-    raise KeyError(f"symbol {symbol} is not in the symbol table")

@@ -1,76 +1,32 @@
-"""Equations as printed: verbatim LaTeX with number, source and symbol table, as data.
+"""A paper: what it printed, the membranes that it speaks of, and where both stand.
 
-This is one of two independent witnesses. It never reads the derivation; `verify` compares the two.
+A paper is a package in this folder with a module `paper` that has it as `PAPER`; nothing else has to know of it.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
+from importlib import import_module
+from pathlib import Path
+from pkgutil import iter_modules
 
-from delagrange.derive.printed.latex import Equation, SymbolTable, read_equation
+from delagrange.derive.membrane.description import Description
+from delagrange.derive.papers.printed_equation import PrintedEquation
+from delagrange.derive.printed.latex import Equation, SymbolTable
 
-LoadCaseName = Literal["membrane", "equal_biaxial", "uniaxial", "pure_shear"]
-QuantityName = Literal[
-    "kinetic_energy", "potential_energy", "potential_with_reactions", "equation_of_motion_1",
-    "equation_of_motion_2", "dashpot_rate_1", "dashpot_rate_2", "reaction_force",
-]  # fmt: skip
-
-
-@dataclass(frozen=True)
-class TextRepair:
-    """A glyph that the text extraction got wrong: `old` stands in the text, `new` in print."""
-
-    old: str
-    new: str
-    reason: str
-
-
-@dataclass(frozen=True)
-class PrintedEquation:
-    """One printed equation, or the note that the text lost it."""
-
-    number: str  # "9"
-    quantity: QuantityName  # what it states
-    load_case: LoadCaseName  # "membrane" is the general one
-    source: str  # author, year, journal, number
-    latex: str | None  # verbatim from the text; None where the text lost it
-    repairs: tuple[TextRepair, ...] = ()
-    note: str = ""
-
-    @property
-    def reading(self) -> str:
-        """The LaTeX with its repairs made.
-
-        Raises:
-            ValueError: the text lost the equation, or what a repair replaces does not stand there once.
-        """
-        if self.latex is None:
-            raise ValueError(f"Eq. ({self.number}) is missing in the text: {self.note}")
-        text = self.latex
-        for repair in self.repairs:
-            if (count := text.count(repair.old)) != 1:
-                raise ValueError(f"Eq. ({self.number}) has {repair.old!r} {count} times; allowed is once")
-            text = text.replace(repair.old, repair.new)
-        return text
-
-    def read(self, table: SymbolTable) -> Equation:
-        """The tree of the equation, repairs made.
-
-        Raises:
-            LatexError: the reader does not understand it.
-            ValueError: as `reading`.
-        """
-        return read_equation(self.reading, table, number=self.number)
+_HERE = "delagrange.derive.papers"
 
 
 @dataclass(frozen=True)
 class Paper:
-    """What one source printed, and what its symbols mean."""
+    """What one source printed, what its symbols mean, and which membranes its equations are checked against."""
 
     citation: str
     equations: tuple[PrintedEquation, ...]
     table: SymbolTable
+    descriptions: tuple[Description, ...]
+    folder: Path  # where its verdicts are recorded
+    not_emitted: tuple[str, ...] = ()  # names of descriptions that only the check needs
 
     def __getitem__(self, number: str) -> PrintedEquation:
         for equation in self.equations:
@@ -87,3 +43,21 @@ class Paper:
     def readable(self) -> tuple[PrintedEquation, ...]:
         """The equations that the text has."""
         return tuple(equation for equation in self.equations if equation.latex is not None)
+
+    def description(self, model: str) -> Description:
+        """The membrane of a name.
+
+        Raises:
+            ValueError: there is none.
+        """
+        for each in self.descriptions:
+            if each.name == model:
+                return each
+        known = ", ".join(each.name for each in self.descriptions)
+        raise ValueError(f"model {model!r} is none of {self.citation}; there are {known}")
+
+
+def papers(package: str = _HERE) -> tuple[Paper, ...]:
+    """The papers that stand in a package, each a package of its own, in the order of their names."""
+    folders = sorted(each.name for each in iter_modules(import_module(package).__path__) if each.ispkg)
+    return tuple(import_module(f"{package}.{name}.paper").PAPER for name in folders)

@@ -38,8 +38,15 @@ def verdicts(derived, monkeypatch):
     """The verdicts; `verify` and `derive` find them again without deriving."""
     walked = derived[2]
     monkeypatch.setattr(pipeline, "walk", lambda: walked)
-    monkeypatch.setattr(pipeline, "check", lambda: walked.verdicts)
+    monkeypatch.setattr(pipeline, "check", lambda: walked)
     return walked.verdicts
+
+
+def found(monkeypatch, walked, verdicts) -> None:
+    """Let `verify` find these verdicts on the paper."""
+    (checked,) = walked.checked
+    changed = replace(walked, checked=(replace(checked, verdicts=verdicts),))
+    monkeypatch.setattr(pipeline, "check", lambda: changed)
 
 
 @pytest.fixture(autouse=True)
@@ -93,10 +100,10 @@ def test_details_are_added_not_exchanged(verdicts, capsys):
     assert all("".join(detail(verdict).split()) in words for verdict in verdicts)
 
 
-def test_a_departure_from_the_record_fails(verdicts, monkeypatch, capsys):
+def test_a_departure_from_the_record_fails(derived, verdicts, monkeypatch, capsys):
     (equal,) = [v for v in verdicts if v.number == "13"]
     changed = tuple(replace(v, outcome=Outcome.DIFFERS) if v is equal else v for v in verdicts)
-    monkeypatch.setattr(pipeline, "check", lambda: changed)
+    found(monkeypatch, derived[2], changed)
     assert main(["verify", "--quiet"]) == 1
     captured = capsys.readouterr()
     (line,) = captured.err.splitlines()
@@ -105,8 +112,8 @@ def test_a_departure_from_the_record_fails(verdicts, monkeypatch, capsys):
 
 
 @pytest.mark.parametrize("lost", range(3))
-def test_a_lost_verdict_fails(verdicts, monkeypatch, capsys, lost):
-    monkeypatch.setattr(pipeline, "check", lambda: verdicts[:lost] + verdicts[lost + 1 :])
+def test_a_lost_verdict_fails(derived, verdicts, monkeypatch, capsys, lost):
+    found(monkeypatch, derived[2], verdicts[:lost] + verdicts[lost + 1 :])
     assert main(["verify", "--quiet"]) == 1
     assert f"Eq. ({verdicts[lost].number})" in capsys.readouterr().err
 

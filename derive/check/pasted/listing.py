@@ -9,7 +9,6 @@ import sympy as sp
 from delagrange.derive.check.pasted.latex import LatexPrinter
 from delagrange.derive.check.pasted.symbols import symbols_of_model
 from delagrange.derive.equations.derived_equations import DerivedEquation, derived_equations
-from delagrange.derive.equations.described import quantities_of
 from delagrange.derive.equations.euler_lagrange import EquationsOfMotion
 from delagrange.derive.notation.symbols import Quantity
 
@@ -34,8 +33,9 @@ def listed_symbols(eom: EquationsOfMotion) -> tuple[ListedSymbol, ...]:
     """The symbol of each quantity of a model by default; accelerations of inelastic stretches stand nowhere."""
     names = symbols_of_model(eom).names
     nowhere = {internal.acceleration for internal in eom.load_case.internals}
-    known = quantities_of(eom.membrane, eom.load_case)
-    return tuple(ListedSymbol(str(names[each.symbol]), each) for each in known if each not in nowhere)
+    return tuple(
+        ListedSymbol(str(names[each.symbol]), each) for each in eom.quantities if each not in nowhere
+    )
 
 
 def listed_equations(eom: EquationsOfMotion) -> tuple[ListedEquation, ...]:

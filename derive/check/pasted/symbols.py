@@ -23,7 +23,6 @@ from delagrange.common.checks import did_you_mean
 from delagrange.common.units import shown
 from delagrange.derive.check.pasted.abbreviation import Abbreviation, read_abbreviation
 from delagrange.derive.check.pasted.bounds import check_symbol_length
-from delagrange.derive.equations.described import quantities_of
 from delagrange.derive.equations.euler_lagrange import EquationsOfMotion
 from delagrange.derive.notation.symbols import Quantity, TimeDependent
 from delagrange.derive.printed.symbol_table import GREEK, Name, SymbolTable, name_of
@@ -100,7 +99,7 @@ def _meanings(eom: EquationsOfMotion) -> tuple[_Meaning, ...]:
     """Everything that has a symbol: what moves, with its rates, then all that does not."""
     moving = (*eom.load_case.coordinates, *eom.load_case.internals)
     parts = {part for each in moving for part in (each.value, each.rate, each.acceleration)}
-    still = (each for each in quantities_of(eom.membrane, eom.load_case) if each not in parts)
+    still = (each for each in eom.quantities if each not in parts)
     return (*moving, *still)
 
 

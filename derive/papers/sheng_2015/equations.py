@@ -10,12 +10,11 @@ from __future__ import annotations
 from types import MappingProxyType
 
 from delagrange.derive.notation import symbols as sym
-from delagrange.derive.papers.paper import LoadCaseName, Paper, PrintedEquation, QuantityName, TextRepair
+from delagrange.derive.papers.printed_equation import PrintedEquation, TextRepair
+from delagrange.derive.papers.sheng_2015 import symbols as own
 from delagrange.derive.printed.latex import SymbolTable
 
-_CITATION = "Sheng et al. (2015), J. Appl. Phys., doi:10.1063/1.4913384"
-
-_TABLE = SymbolTable.of(
+TABLE = SymbolTable.of(
     {
         "T": sym.KINETIC_ENERGY,
         r"\Pi": sym.POTENTIAL_ENERGY,
@@ -35,14 +34,14 @@ _TABLE = SymbolTable.of(
         r"\lambda_2": sym.STRETCH_2,
         r"\xi_1": sym.INELASTIC_STRETCH_1,
         r"\xi_2": sym.INELASTIC_STRETCH_2,
-        r"\lambda_{EB}": sym.STRETCH_EB,
-        r"\xi_{EB}": sym.INELASTIC_STRETCH_EB,
-        r"\lambda_{UA1}": sym.STRETCH_UA1,
-        r"\lambda_{UA2}": sym.STRETCH_UA2,
-        r"\xi_{UA1}": sym.INELASTIC_STRETCH_UA1,
-        r"\xi_{UA2}": sym.INELASTIC_STRETCH_UA2,
-        r"\lambda_{PS}": sym.STRETCH_PS,
-        r"\xi_{PS}": sym.INELASTIC_STRETCH_PS,
+        r"\lambda_{EB}": own.STRETCH_EB,
+        r"\xi_{EB}": own.INELASTIC_STRETCH_EB,
+        r"\lambda_{UA1}": own.STRETCH_UA1,
+        r"\lambda_{UA2}": own.STRETCH_UA2,
+        r"\xi_{UA1}": own.INELASTIC_STRETCH_UA1,
+        r"\xi_{UA2}": own.INELASTIC_STRETCH_UA2,
+        r"\lambda_{PS}": own.STRETCH_PS,
+        r"\xi_{PS}": own.INELASTIC_STRETCH_PS,
         r"\lambda_{2p}": sym.HELD_STRETCH,
     },
     partners=((r"\lambda_{PS}", r"\lambda_{2p}"), ("P", "P_{2p}"), ("L", "H")),
@@ -195,40 +194,34 @@ _REPAIRS = MappingProxyType(
 )
 
 
-def _printed(number: str, quantity: QuantityName, load_case: LoadCaseName, note: str = "") -> PrintedEquation:
-    source = f"{_CITATION}, Eq. ({number})"
-    return PrintedEquation(
-        number, quantity, load_case, source, _LATEX.get(number), _REPAIRS.get(number, ()), note
-    )
+def _printed(number: str, quantity: str, load: str, note: str = "") -> PrintedEquation:
+    source = f"{own.CITATION}, Eq. ({number})"
+    return PrintedEquation(number, quantity, load, source, _LATEX.get(number), _REPAIRS.get(number, ()), note)
 
 
-SHENG_2015 = Paper(
-    _CITATION,
-    (
-        _printed("4", "potential_energy", "membrane"),
-        _printed("5", "dashpot_rate_1", "membrane"),
-        _printed("6", "dashpot_rate_2", "membrane"),
-        _printed("7", "kinetic_energy", "equal_biaxial"),
-        _printed("8", "potential_energy", "equal_biaxial"),
-        _printed("9", "equation_of_motion_1", "equal_biaxial"),
-        _printed("10", "dashpot_rate_1", "equal_biaxial"),
-        _printed("11", "kinetic_energy", "uniaxial"),
-        _printed("12", "potential_energy", "uniaxial"),
-        _printed("13", "equation_of_motion_1", "uniaxial"),
-        _printed("14", "equation_of_motion_2", "uniaxial"),
-        _printed("15", "dashpot_rate_1", "uniaxial"),
-        _printed("16", "dashpot_rate_2", "uniaxial"),
-        _printed("17", "kinetic_energy", "pure_shear"),
-        _printed("18", "potential_with_reactions", "pure_shear"),
-        _printed("19", "reaction_force", "pure_shear"),
-        _printed("20", "potential_energy", "pure_shear"),
-        _printed("21", "equation_of_motion_1", "pure_shear"),
-        _printed(
-            "22",
-            "dashpot_rate_1",
-            "pure_shear",
-            'the text ends at "can be simplified by Eqs. (5) and (6) as"',
-        ),
+EQUATIONS = (
+    _printed("4", "potential_energy", "biaxial"),
+    _printed("5", "dashpot_rate_1", "biaxial"),
+    _printed("6", "dashpot_rate_2", "biaxial"),
+    _printed("7", "kinetic_energy", "equal_biaxial"),
+    _printed("8", "potential_energy", "equal_biaxial"),
+    _printed("9", "equation_of_motion_1", "equal_biaxial"),
+    _printed("10", "dashpot_rate_1", "equal_biaxial"),
+    _printed("11", "kinetic_energy", "uniaxial"),
+    _printed("12", "potential_energy", "uniaxial"),
+    _printed("13", "equation_of_motion_1", "uniaxial"),
+    _printed("14", "equation_of_motion_2", "uniaxial"),
+    _printed("15", "dashpot_rate_1", "uniaxial"),
+    _printed("16", "dashpot_rate_2", "uniaxial"),
+    _printed("17", "kinetic_energy", "pure_shear"),
+    _printed("18", "potential_with_reactions", "pure_shear"),
+    _printed("19", "reaction_force", "pure_shear"),
+    _printed("20", "potential_energy", "pure_shear"),
+    _printed("21", "equation_of_motion_1", "pure_shear"),
+    _printed(
+        "22",
+        "dashpot_rate_1",
+        "pure_shear",
+        'the text ends at "can be simplified by Eqs. (5) and (6) as"',
     ),
-    _TABLE,
 )

@@ -52,7 +52,7 @@ def derive(given: Given) -> None:
 
         walked = pipeline.walk()
     show(walked.verdicts, given.details)
-    departed = not as_recorded(walked.verdicts)
+    departed = not as_recorded(walked)
     if given.check:
         failed = _stale(walked, folder) or departed
     else:
@@ -64,12 +64,12 @@ def derive(given: Given) -> None:
 
 def _stale(walked: Derivation, folder: Path) -> bool:
     """Whether a module in the folder is not what the derivation emits; it is named on standard error."""
-    from delagrange.derive import pipeline
+    from delagrange.derive.emit.folder import stale, surplus
 
-    old = pipeline.stale(walked.modules, folder)
+    old = stale(walked.modules, folder)
     for name in old:
         console.complain(f"stale: {folder / name} is not what the derivation emits; run `delagrange derive`")
-    extra = pipeline.surplus(walked.modules, folder)
+    extra = surplus(walked.modules, folder)
     for name in extra:
         console.complain(f"surplus: {folder / name} is not emitted by the derivation; remove it")
     print(f"{len(walked.modules) - len(old)} of {len(walked.modules)} modules in {folder} are as emitted")
@@ -113,11 +113,10 @@ def _derive_file(model: Path, given: Given) -> None:
 
 def _derived(path: Path) -> tuple[tuple[str, str], ...]:
     """File name and text of each module of the membrane."""
-    from delagrange.derive.model_file.describe import describe
     from delagrange.derive.model_file.file import read_model_file
     from delagrange.derive.pipeline import derive_description
 
-    description = describe(read_model_file(path))
+    description = read_model_file(path)
     try:
         return derive_description(description)
     except ValueError as error:
@@ -125,9 +124,9 @@ def _derived(path: Path) -> tuple[tuple[str, str], ...]:
 
 
 def _compare(modules: tuple[tuple[str, str], ...], folder: Path, model: Path) -> None:
-    from delagrange.derive import pipeline
+    from delagrange.derive.emit.folder import stale
 
-    old = pipeline.stale(modules, folder)
+    old = stale(modules, folder)
     for name in old:
         console.complain(f"stale: {folder / name} is not what {model} gives; derive it again")
     print(f"{len(modules) - len(old)} of {len(modules)} modules in {folder} are as emitted")

@@ -13,6 +13,7 @@ from delagrange.cli import console
 
 if TYPE_CHECKING:
     from delagrange.derive.check.verdict import Verdict
+    from delagrange.derive.pipeline import Derivation
 
 _COLOURS = {"EQUAL": "green", "SCALED": "cyan", "DIFFERS": "red", "MISSING": "dim"}
 
@@ -66,11 +67,9 @@ def _cell(text: str) -> str:
     return "".join(f"\\{mark}" if mark in "\\|*_`<>[]" else mark for mark in text)
 
 
-def as_recorded(verdicts: tuple[Verdict, ...]) -> bool:
+def as_recorded(derivation: Derivation) -> bool:
     """Whether all verdicts are the recorded ones; those that are not are named on standard error."""
-    from delagrange.derive.check.record import departures, recorded
-
-    lines = departures(verdicts, recorded())
+    lines = derivation.departures
     for line in lines:
         console.complain(f"not as recorded: {line}")
     if not lines:

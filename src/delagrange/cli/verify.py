@@ -13,7 +13,7 @@ from delagrange.cli.verdicts import as_markdown, as_recorded, show
 from delagrange.cli.verify_pasted import list_model, verify_pasted
 
 if TYPE_CHECKING:
-    from delagrange.derive.check.verdict import Verdict
+    from delagrange.derive.pipeline import Derivation
 
 _CHECKED = ("equation", "equations", "symbols", "quantity", "formulation", "lateral_dashpot", "markdown")
 
@@ -46,8 +46,9 @@ def verify(given: Given) -> None:
       delagrange verify my_membrane.toml --equations eqs.toml --symbols table.toml
     """
     _check_together(given)
-    if given.model is None:
-        verdicts = _of_the_paper(given.quiet)
+    derivation = None if given.model is not None else _of_the_papers(given.quiet)
+    if derivation is not None:
+        verdicts = derivation.verdicts
     elif given.equation or given.equations is not None:
         verdicts = verify_pasted(given)
     else:
@@ -58,12 +59,12 @@ def verify(given: Given) -> None:
     if given.markdown is not None:
         given.markdown.write_text(as_markdown(verdicts, detailed), encoding="utf-8")
         print(f"written: {given.markdown}")
-    agreed = as_recorded(verdicts) if given.model is None else all(verdict.agrees for verdict in verdicts)
+    agreed = all(verdict.agrees for verdict in verdicts) if derivation is None else as_recorded(derivation)
     if not agreed:
         raise typer.Exit(1)
 
 
-def _of_the_paper(quiet: bool) -> tuple[Verdict, ...]:
+def _of_the_papers(quiet: bool) -> Derivation:
     with interruptible("nothing was written"), console.messages(quiet).status("deriving and checking"):
         from delagrange.derive import pipeline
 

@@ -64,10 +64,9 @@ def _equations_of(given: Given) -> EquationsOfMotion:
 
 def _described(path: Path) -> EquationsOfMotion:
     from delagrange.derive.equations.described import description_equations
-    from delagrange.derive.model_file.describe import describe
     from delagrange.derive.model_file.file import read_model_file
 
-    description = describe(read_model_file(path))
+    description = read_model_file(path)
     try:
         return description_equations(description)
     except ValueError as error:
@@ -76,18 +75,19 @@ def _described(path: Path) -> EquationsOfMotion:
 
 def _built_in(model: str, formulation: str | None, lateral_dashpot: str | None) -> EquationsOfMotion:
     """A model by the name that all commands know; `biaxial`, which has no module, is the membrane of two forces."""
-    from delagrange.derive import pipeline
-    from delagrange.derive.membrane.load_cases import BIAXIAL, EMITTED
+    from delagrange.derive.equations.described import description_equations
+    from delagrange.derive.papers.paper import papers
 
-    cases = {case.name: case for case in (BIAXIAL, *EMITTED)}
     name = model.replace("-", "_")
-    if name == BIAXIAL.name and (formulation is not None or lateral_dashpot is not None):
-        raise ValueError("biaxial has one formulation: leave --formulation and --lateral-dashpot out")
-    if name != BIAXIAL.name:
+    without_module = [each for paper in papers() for each in paper.not_emitted]
+    if name not in without_module:
         if is_path(model):
             raise ValueError(
                 f"model {model}: a module holds code, not its derivation; give the membrane in TOML (.toml) that "
                 "it was derived from"
             )
         name = load_model(model, formulation, lateral_dashpot).MODEL
-    return pipeline.derive(pipeline.paper_membrane(), cases[name])
+    elif formulation is not None or lateral_dashpot is not None:
+        raise ValueError(f"{name} has one formulation: leave --formulation and --lateral-dashpot out")
+    descriptions = {each.name: each for paper in papers() for each in paper.descriptions}
+    return description_equations(descriptions[name])

@@ -63,20 +63,19 @@ def _derive(console: Console) -> tuple[Table, int]:
     from importlib import resources
 
     from delagrange.derive import pipeline
-    from delagrange.derive.check.record import departures, recorded
     from delagrange.derive.check.report import HEADINGS, rows
+    from delagrange.derive.emit.folder import stale
 
     with console.status("deriving ..."):
         walked = pipeline.walk()
-    departed = departures(walked.verdicts, recorded())
-    stale = pipeline.stale(walked.modules, Path(str(resources.files("delagrange.generated"))))
-    for line in (*departed, *(f"generated module {name} is stale" for name in stale)):
+    old = stale(walked.modules, Path(str(resources.files("delagrange.generated"))))
+    for line in (*walked.departures, *(f"generated module {name} is stale" for name in old)):
         console.print(f"[red]not as recorded:[/red] {line}")
     caption = "Every printed equation against the derivation from Eqs. (1)-(6)."
     table = Table(
         "verdicts", "Printed equations against the derivation", HEADINGS, rows(walked.verdicts), caption
     )
-    return table, 1 if departed or stale else 0
+    return table, 1 if walked.departures or old else 0
 
 
 def _write(tables: tuple[Table, ...], out: Path) -> Path:

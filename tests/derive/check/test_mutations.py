@@ -18,20 +18,19 @@ from delagrange.derive.check.compare import witness
 from delagrange.derive.check.verdict import Outcome
 from delagrange.derive.check.verify import verdict_on
 from delagrange.derive.equations.derived_equations import derived_equations
-from delagrange.derive.notation import symbols as s
-from delagrange.derive.papers.sheng_2015.equations import SHENG_2015
+from delagrange.derive.papers.sheng_2015.paper import PAPER as SHENG_2015
 from delagrange.derive.printed.edits import Edit, single_edits
 from delagrange.derive.printed.latex import read_equation
 from delagrange.derive.printed.tree import Group, Number, Power, Product, Quotient, Sum, Variable
 
-MODEL = {"membrane": "biaxial", "pure_shear": "pure_shear_as_printed"}
+MODEL = {"pure_shear": "pure_shear_as_printed"}
 # What Eqs. (15), (16) and (21) should read, so that their mutations start from an equation that is right
 CORRECTED = {
     "15": (r"- \lambda_{\mathrm{UA2}}^{-2} \xi_{\mathrm{UA1}}^{3} + \lambda_{\mathrm{UA2}}^{-2} \xi_{\mathrm{UA1}}^{3} \xi_{\mathrm{UA2}}^{2}",
            r"- \lambda_{\mathrm{UA1}}^{-2} \lambda_{\mathrm{UA2}}^{-2} \xi_{\mathrm{UA1}}^{3} \xi_{\mathrm{UA2}}^{2}"),
     "16": (r"{3\eta}", r"{6\eta}"),
 }  # fmt: skip
-KNOWN = tuple(quantity.symbol for quantity in s.QUANTITIES)
+KNOWN = tuple(quantity.symbol for quantity in SHENG_2015.table.entries.values())
 NUMBERS = [equation.number for equation in SHENG_2015.readable]
 
 
@@ -105,7 +104,7 @@ def _same_mathematics(tree, other, unknown) -> bool:
 
 def _derived(number, equations):
     printed = SHENG_2015[number]
-    return derived_equations(equations(MODEL.get(printed.load_case, printed.load_case)))[printed.quantity]
+    return derived_equations(equations(MODEL.get(printed.load, printed.load)))[printed.quantity]
 
 
 @cache

@@ -19,10 +19,10 @@ from delagrange.derive.kernel.arranged import operations
 from delagrange.derive.kernel.compiled_spec import joined, variational_spec
 from delagrange.derive.kernel.kernel import kernel
 from delagrange.derive.kernel.spec import Assignment, KernelFunction
-from delagrange.derive.membrane.load_cases import EMITTED
+from delagrange.derive.papers.sheng_2015.paper import PAPER
 from delagrange.model.kernels import compile_tangents
 
-NAMES = tuple(case.name for case in EMITTED)
+NAMES = tuple(each.name for each in PAPER.descriptions if each.name not in PAPER.not_emitted)
 MATRICES = ("rhs", "jacobian", "input_jacobian")
 
 

@@ -10,9 +10,9 @@ import sympy as sp
 from sympy.physics.mechanics import LagrangesMethod, dynamicsymbols
 
 from delagrange.derive.equations.euler_lagrange import equations_of_motion, euler_lagrange, kinematics
-from delagrange.derive.membrane.load_cases import EQUAL_BIAXIAL, UNIAXIAL
-from delagrange.derive.membrane.membrane import time_derivative
 from delagrange.derive.notation import symbols as s
+from delagrange.derive.notation.time_derivative import time_derivative
+from delagrange.derive.papers.sheng_2015 import symbols as paper
 
 CONSISTENT = ("biaxial", "equal_biaxial", "uniaxial", "pure_shear_consistent", "pure_shear_consistent_free")
 ALL = (*CONSISTENT, "pure_shear_as_printed")
@@ -41,7 +41,7 @@ def test_operator_agrees_with_sympy_mechanics(name, equations):
 
 
 def test_operator_takes_any_number_of_coordinates():
-    coordinates = (s.STRETCH_1, s.STRETCH_2, s.STRETCH_PS)
+    coordinates = (s.STRETCH_1, s.STRETCH_2, paper.STRETCH_PS)
     q = [c.value.symbol for c in coordinates]
     v = [c.rate.symbol for c in coordinates]
     lagrangian = (
@@ -109,9 +109,9 @@ def test_dissipation_is_never_negative(name, equations, rng):
 def test_holding_the_lateral_dashpot_ignores_a_rate(equations):
     """The remark in the module's docstring: Eq. (6) gives xi_2 a rate on the constraint that the model ignores."""
     free = equations("pure_shear_consistent_free").internal_rates[1]
-    held = free.subs(s.INELASTIC_STRETCH_PS2.value.symbol, s.HELD_STRETCH.symbol)
+    held = free.subs(paper.INELASTIC_STRETCH_PS2.value.symbol, s.HELD_STRETCH.symbol)
     at = {p.symbol: 1 for p in equations("pure_shear_consistent").parameters}
-    at |= {s.STRETCH_PS.value.symbol: 2, s.INELASTIC_STRETCH_PS.value.symbol: 1}
+    at |= {paper.STRETCH_PS.value.symbol: 2, paper.INELASTIC_STRETCH_PS.value.symbol: 1}
     assert held.subs(at) != 0
 
 
@@ -130,7 +130,7 @@ def test_swapping_the_axes_leaves_the_membrane(equations):
 
 def test_uniaxial_is_the_membrane_with_one_force(equations):
     full, uniaxial = equations("biaxial"), equations("uniaxial")
-    substitution = kinematics(full.membrane, UNIAXIAL) | {
+    substitution = kinematics(full.membrane, uniaxial.load_case) | {
         s.FORCE_1.symbol: s.FORCE.symbol,
         s.FORCE_2.symbol: 0,
     }
@@ -141,7 +141,7 @@ def test_uniaxial_is_the_membrane_with_one_force(equations):
 def test_equal_forces_give_the_equal_biaxial_motion(equations):
     """On the diagonal both residuals of the full membrane are half the equal-biaxial one."""
     full, diagonal = equations("biaxial"), equations("equal_biaxial")
-    substitution = kinematics(full.membrane, EQUAL_BIAXIAL) | {
+    substitution = kinematics(full.membrane, diagonal.load_case) | {
         f.symbol: s.FORCE.symbol for f in full.membrane.forces
     }
     for residual in full.residuals:
@@ -149,10 +149,10 @@ def test_equal_forces_give_the_equal_biaxial_motion(equations):
 
 
 @pytest.mark.parametrize("name", ["pure_shear_consistent", "pure_shear_consistent_free"])
-def test_the_reaction_holds_the_axis(name, equations, load_case):
+def test_the_reaction_holds_the_axis(name, equations):
     """With the reaction as its force, the full membrane started on the constraint stays there: lambda_2'' = 0."""
     full, held = equations("biaxial"), equations(name)
-    substitution = kinematics(full.membrane, load_case(name))
+    substitution = kinematics(full.membrane, held.load_case)
     moving = dict(
         zip((c.acceleration.symbol for c in held.load_case.coordinates), held.acceleration, strict=True)
     )
@@ -165,8 +165,10 @@ def test_the_reaction_holds_the_axis(name, equations, load_case):
 def test_the_reaction_has_a_thickness_inertia_term(equations):
     consistent, printed = equations("pure_shear_consistent"), equations("pure_shear_as_printed")
     difference = sp.expand(consistent.reaction_forces[0] - printed.reaction_forces[0])
-    assert difference.has(s.STRETCH_PS.acceleration.symbol) and difference.has(s.STRETCH_PS.rate.symbol)
-    at_rest = {s.STRETCH_PS.acceleration.symbol: 0, s.STRETCH_PS.rate.symbol: 0}
+    assert difference.has(paper.STRETCH_PS.acceleration.symbol) and difference.has(
+        paper.STRETCH_PS.rate.symbol
+    )
+    at_rest = {paper.STRETCH_PS.acceleration.symbol: 0, paper.STRETCH_PS.rate.symbol: 0}
     assert difference.subs(at_rest) == 0
     assert consistent.static_reaction_forces == printed.static_reaction_forces
 
@@ -208,7 +210,7 @@ def test_small_vibration_of_the_undeformed_membrane(equations):
 def test_pull_in_of_the_ideal_neo_hookean_dielectric(equations):
     """No force, spring beta absent: lambda = 2^(1/3) at a nominal field of 0.68736 sqrt(mu/epsilon)."""
     eom = equations("equal_biaxial")
-    stretch, field = s.STRETCH_EB.value.symbol, s.FIELD.symbol
+    stretch, field = paper.STRETCH_EB.value.symbol, s.FIELD.symbol
     balance = eom.potential_energy.diff(stretch).subs({s.FORCE.symbol: 0, s.SHEAR_MODULUS_BETA.symbol: 0})
     squared = sp.solve(balance, field**2)[0]
     turning = [root for root in sp.solve(squared.diff(stretch), stretch) if root.is_positive]
@@ -222,16 +224,19 @@ def test_pull_in_of_the_ideal_neo_hookean_dielectric(equations):
 def test_relaxation_at_a_held_stretch(equations):
     """w = (xi/lambda)^2 obeys dw/dt = (1 - w^3) / (3 tau), tau = eta / mu_beta."""
     eom = equations("equal_biaxial")
-    stretch, xi = s.STRETCH_EB.value.symbol, s.INELASTIC_STRETCH_EB.value.symbol
+    stretch, xi = paper.STRETCH_EB.value.symbol, paper.INELASTIC_STRETCH_EB.value.symbol
     w = (xi / stretch) ** 2
     tau = s.VISCOSITY.symbol / s.SHEAR_MODULUS_BETA.symbol
     assert sp.simplify(w.diff(xi) * eom.internal_rates[0] - (1 - w**3) / (3 * tau)) == 0
 
 
 def test_a_constraint_at_odds_with_the_dashpots_is_refused(equations):
-    shared = s.INELASTIC_STRETCH_UA1
+    shared = paper.INELASTIC_STRETCH_UA1
+    uniaxial = equations("uniaxial")
     case = replace(
-        UNIAXIAL, internals=(shared,), inelastic_stretches=(shared.value.symbol, shared.value.symbol)
+        uniaxial.load_case,
+        internals=(shared,),
+        inelastic_stretches=(shared.value.symbol, shared.value.symbol),
     )
     with pytest.raises(ValueError, match="inelastic_stretch_1 has two different dashpot rates"):
-        equations_of_motion(equations("uniaxial").membrane, case)
+        equations_of_motion(uniaxial.membrane, case)

@@ -9,10 +9,10 @@ import pytest
 from conftest import derived
 from hypothesis import given
 from hypothesis import strategies as st
+from lambdified import lambdified
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
-from delagrange.derive.equations.lambdified import lambdified
 from delagrange.generated import equal_biaxial, pure_shear_consistent, pure_shear_consistent_free, uniaxial
 
 CONSISTENT = (equal_biaxial, uniaxial, pure_shear_consistent, pure_shear_consistent_free)

@@ -24,25 +24,30 @@ from described import (
     state_of,
 )
 
+from delagrange.common.roles import Role
 from delagrange.derive.equations.described import description_equations
+from delagrange.derive.membrane.constraint import constrain, kinematics, loads
 from delagrange.derive.membrane.description import (
     BIAXIAL,
     CHARGE,
     EQUAL_BIAXIAL,
     PURE_SHEAR,
+    REACTION_IN_POTENTIAL,
     RELATION,
     UNIAXIAL,
     Attachment,
     Dielectric,
     Load,
+    Notation,
 )
 from delagrange.derive.membrane.strain_energy import neo_hookean
 from delagrange.derive.notation import more_symbols as m
 from delagrange.derive.notation import symbols as s
-from delagrange.derive.notation.symbols import quantity
+from delagrange.derive.notation.symbols import moving, quantity
 from delagrange.derive.pipeline import derive_description, description_spec
 from delagrange.generated import (
     equal_biaxial,
+    pure_shear_as_printed,
     pure_shear_consistent,
     pure_shear_consistent_free,
     uniaxial,
@@ -136,6 +141,7 @@ def test_an_undeformed_membrane_without_load_stays_where_it_is(case):
         (Load(UNIAXIAL), uniaxial),
         (Load(PURE_SHEAR), pure_shear_consistent_free),
         (Load(PURE_SHEAR, lateral_dashpots_free=False), pure_shear_consistent),
+        (Load(PURE_SHEAR, False, formulation=REACTION_IN_POTENTIAL), pure_shear_as_printed),
     ],
     ids=lambda each: getattr(each, "MODEL", ""),
 )
@@ -273,6 +279,37 @@ def test_the_limit_of_a_gent_spring_is_where_its_invariant_locks():
     assert not hasattr(emitted(plain(UNIAXIAL)), "validity")
 
 
+def test_the_force_of_the_frame_is_put_into_the_potential_of_whoever_asks_for_it():
+    """Each part W of the potential but the forces becomes W - lambda_2 dW/dlambda_2 where lambda_2 is held."""
+    load = Load(PURE_SHEAR, formulation=REACTION_IN_POTENTIAL)
+    inserted = description_equations(described(PURE_SHEAR, "Gent", "neo-Hookean", "Gent", load=load))
+    free, load_case = inserted.membrane, inserted.load_case
+    held = free.coordinates[1].value.symbol
+    substitution = kinematics(free, load_case) | loads(free, load_case)
+    assert [part.name for part in free.energies.parts if part.name != "forces"] == [
+        "spring_alpha", "spring_beta_1", "spring_beta_2", "electrostatic",
+    ]  # fmt: skip
+    for part in free.energies.parts:
+        if part.name != "forces":
+            expected = constrain(part.expression - held * part.expression.diff(held), substitution)
+            assert sp.simplify(inserted.energies[part.name] - expected) == 0
+    assert "a step that a workless constraint does not allow" in emitted(
+        described(PURE_SHEAR, "Gent", load=load)
+    ).__doc__.replace("\n", " ")
+
+
+def test_a_description_may_have_a_notation_of_its_own(rng):
+    """The names stay unless it gives others; the motion is the same, written otherwise."""
+    side = moving("x", "side", "x", "x", "side over its length at rest", Role.STRETCH)
+    usual = plain(EQUAL_BIAXIAL, "neo-Hookean")
+    own, same = emitted(replace(usual, notation=Notation((side,), source="A letter (2020)"))), emitted(usual)
+    assert [each.name for each in own.STATE] == ["side", "side_rate", "inelastic_stretch"]
+    assert "Governing equations, in the notation of A letter (2020):" in own.__doc__
+    parameters, inputs = parameters_of(own), inputs_of(own)
+    state = state_of(own, rng, parameters)
+    assert np.array_equal(own.rhs(state, inputs, parameters), same.rhs(state, inputs, parameters))
+
+
 # --- what is refused, and what a module carries -----------------------------------------------------
 
 
@@ -306,6 +343,31 @@ def constant_relation(**parts) -> Load:
         (plain(EQUAL_BIAXIAL, attachments=(Attachment(1, m.EDGE_MASS),)), r"axis 1 than on axis 2"),
         (plain(UNIAXIAL, attachments=(Attachment(3, m.EDGE_MASS),)), r"axis 3; allowed are 1 and 2"),
         (plain(UNIAXIAL, dielectric=Dielectric(control="power")), r"'power' control"),
+        (
+            plain(UNIAXIAL, load=Load(UNIAXIAL, formulation="printed")),
+            r"formulation 'printed'; allowed are consistent",
+        ),
+        (
+            plain(UNIAXIAL, load=Load(UNIAXIAL, formulation=REACTION_IN_POTENTIAL)),
+            r"'as_printed' of a load that holds no axis alone; allowed is consistent",
+        ),
+        (
+            plain(RELATION, load=Load(RELATION, relation=CURVED, formulation=REACTION_IN_POTENTIAL)),
+            r"'as_printed' of a load that holds no axis alone",
+        ),
+        (
+            plain(UNIAXIAL, notation=Notation((s.STRETCH_1,))),
+            r"notation has 1 coordinates; allowed are the 2 of its",
+        ),
+        (
+            plain(UNIAXIAL, notation=Notation(internals=(s.INELASTIC_STRETCH_1,))),
+            r"notation has 1 inelastic stretches; allowed are the 0 of its load",
+        ),
+        (
+            plain(RELATION, load=Load(RELATION, relation=CURVED), notation=Notation((s.STRETCH_1,))),
+            r"notation has a coordinate; allowed is that of its relation alone",
+        ),
+        (plain(UNIAXIAL, remark='of "mine"'), r"the text .*; allowed are printable characters"),
         (plain(UNIAXIAL, defaults={"half_lenght": 1.0}), r"half_lenght, .* nearest is half_length"),
         (replace(plain(UNIAXIAL), name="my-model"), r"model name 'my-model'"),
         (
@@ -335,4 +397,4 @@ def test_equations_of_a_description_need_no_global_table():
     own = quantity("zeta", "stiffness_of_mine", "ζ", r"\zeta", "Pa", "a stiffness of mine")
     eom = description_equations(replace(plain(UNIAXIAL), equilibrium_spring=neo_hookean(own)))
     assert own in eom.quantities
-    assert own not in s.QUANTITIES
+    assert own not in vars(s).values()

@@ -3,22 +3,18 @@
 from __future__ import annotations
 
 import itertools
+from dataclasses import replace
 
 import numpy as np
 import pytest
 import sympy as sp
+from conftest import paper_membrane
 from hypothesis import given
 from hypothesis import strategies as st
 
-from delagrange.derive.membrane.membrane import (
-    INTERNALS,
-    dashpot_strain_rates,
-    elastic_stretches,
-    integrate_over_body,
-    membrane,
-    motion,
-    principal_stretches,
-)
+from delagrange.derive.membrane.body import check_body
+from delagrange.derive.membrane.dissipation import dashpot_strain_rates, elastic_stretches
+from delagrange.derive.membrane.rectangle import rectangle
 from delagrange.derive.membrane.strain_energy import gent, mooney_rivlin, neo_hookean
 from delagrange.derive.notation import symbols as s
 
@@ -32,7 +28,7 @@ SECOND = s.Quantity(
 
 @pytest.fixture(scope="module")
 def paper():
-    return membrane(neo_hookean(s.SHEAR_MODULUS_ALPHA), neo_hookean(s.SHEAR_MODULUS_BETA))
+    return paper_membrane()
 
 
 def _gauss_kinetic_energy(l1, l2, v1, v2, L, H, rho):
@@ -48,7 +44,7 @@ def _gauss_kinetic_energy(l1, l2, v1, v2, L, H, rho):
 
 @given(l1=stretch, l2=stretch, v1=rate, v2=rate)
 def test_kinetic_energy_is_the_integral_over_the_body(l1, l2, v1, v2):
-    model = membrane(neo_hookean(s.SHEAR_MODULUS_ALPHA), neo_hookean(s.SHEAR_MODULUS_BETA))
+    model = paper_membrane()
     values = {
         s.STRETCH_1.value.symbol: l1, s.STRETCH_2.value.symbol: l2, s.STRETCH_1.rate.symbol: v1,
         s.STRETCH_2.rate.symbol: v2, s.HALF_LENGTH.symbol: 5e-3, s.HALF_THICKNESS.symbol: 1e-3, s.DENSITY.symbol: 1.2e3,
@@ -59,14 +55,16 @@ def test_kinetic_energy_is_the_integral_over_the_body(l1, l2, v1, v2):
 
 def test_the_motion_keeps_the_volume(paper):
     L, H = s.HALF_LENGTH.symbol, s.HALF_THICKNESS.symbol
-    assert sp.Mul(*principal_stretches()) == 1
+    assert sp.Mul(*paper.principal_stretches) == 1
     assert paper.volume == (2 * L) ** 2 * (2 * H)
 
 
 def test_a_compressible_motion_would_change_the_volume():
-    stretches = (*principal_stretches()[:2], sp.Integer(1))
-    volume = integrate_over_body(sp.Integer(1), motion(stretches))
-    assert volume.has(s.STRETCH_1.value.symbol)
+    body = rectangle()
+    with pytest.raises(
+        ValueError, match=r"volume changes by lambda_1\*lambda_2; allowed is an incompressible"
+    ):
+        check_body(replace(body, principal_stretches=(*body.principal_stretches[:2], sp.Integer(1))))
 
 
 def test_energies_vanish_without_strain_and_load(paper):
@@ -102,7 +100,9 @@ def test_forces_do_work_on_the_length_of_the_membrane(paper):
 )
 def test_the_dashpot_law_holds_for_any_strain_energy(spring, rng):
     """Deviatoric, volume-keeping, dissipative, and driving the spring's stress to a pressure."""
-    stresses = spring.cauchy_stresses(elastic_stretches(principal_stretches()))
+    stresses = spring.cauchy_stresses(
+        elastic_stretches(rectangle(), (s.INELASTIC_STRETCH_1, s.INELASTIC_STRETCH_2))
+    )
     rates = dashpot_strain_rates(stresses)
     assert sp.simplify(sum(rates)) == 0
     symbols = sorted(set().union(*(r.free_symbols for r in rates)), key=str)
@@ -130,7 +130,7 @@ def test_dissipation_is_what_the_springs_energy_loses(paper):
 
 def _loss(model):
     """What the potential loses when the dashpots flow by their law [W]."""
-    flow = zip(INTERNALS, model.dashpot_rates, strict=True)
+    flow = zip(model.internals, model.dashpot_rates, strict=True)
     return -sum(model.energies.total.diff(internal.value.symbol) * rate for internal, rate in flow)
 
 
@@ -143,7 +143,7 @@ def _stress_power(model):
     "spring", [mooney_rivlin(s.SHEAR_MODULUS_BETA, SECOND), gent(s.SHEAR_MODULUS_BETA, LOCKING)]
 )
 def test_dissipation_identity_for_other_springs(spring):
-    model = membrane(neo_hookean(s.SHEAR_MODULUS_ALPHA), spring)
+    model = paper_membrane(beta=spring)
     assert sp.simplify(_loss(model) - _stress_power(model)) == 0
 
 

@@ -10,7 +10,8 @@ from delagrange.derive.membrane.own_energy import own_energy
 from delagrange.derive.notation import symbols as s
 
 A, B, C = STRETCHES = sp.symbols("lambda_1 lambda_2 lambda_3", positive=True)
-MU, LIMIT = s.SHEAR_MODULUS_ALPHA.symbol, s.LOCKING_ALPHA.symbol
+LOCKING = MATERIALS["Gent"](ALPHA).parameters[1]
+MU, LIMIT = s.SHEAR_MODULUS_ALPHA.symbol, LOCKING.symbol
 EXCESS = A**2 + B**2 + C**2 - 3
 MODULUS = (s.SHEAR_MODULUS_ALPHA,)
 
@@ -20,7 +21,7 @@ def test_gent_written_down_is_gent():
         "mine",
         -MU * LIMIT / 2 * sp.log(1 - EXCESS / LIMIT),
         STRETCHES,
-        (s.SHEAR_MODULUS_ALPHA, s.LOCKING_ALPHA),
+        (s.SHEAR_MODULUS_ALPHA, LOCKING),
         validity=LIMIT - EXCESS,
     )
     gent = MATERIALS["Gent"](ALPHA)
@@ -38,9 +39,9 @@ def test_stretches_may_change_places():
 
 
 def test_exponential_energy_of_fung_is_taken():
-    b = s.LOCKING_ALPHA.symbol
+    b = LOCKING.symbol
     fung = own_energy(
-        "Fung", MU / (2 * b) * (sp.exp(b * EXCESS) - 1), STRETCHES, (s.SHEAR_MODULUS_ALPHA, s.LOCKING_ALPHA)
+        "Fung", MU / (2 * b) * (sp.exp(b * EXCESS) - 1), STRETCHES, (s.SHEAR_MODULUS_ALPHA, LOCKING)
     )
     assert fung.shear_modulus == MU
     assert fung.validity is None

@@ -15,7 +15,6 @@ from test_model_file import GENT, LOAD, RELATION, SMALL, changed
 from delagrange.derive.membrane.description import UNIAXIAL, Permittivity
 from delagrange.derive.membrane.own_energy import own_energy
 from delagrange.derive.membrane.strain_energy import neo_hookean
-from delagrange.derive.model_file.describe import describe
 from delagrange.derive.model_file.expression import read_expression
 from delagrange.derive.model_file.file import read_model_file
 from delagrange.derive.model_file.number_at import number_at
@@ -105,7 +104,7 @@ def test_a_key_of_very_many_parts_is_refused(tmp_path):
 def test_the_base_of_the_natural_logarithm_is_emitted(tmp_path):
     path = tmp_path / "my.toml"
     path.write_text(own("mu*exp(1)/2*(I_1 - 3)"), encoding="utf-8")
-    name, text = derive_description(describe(read_model_file(path)))[0]
+    name, text = derive_description(read_model_file(path))[0]
     ast.parse(text, name)
     assert "np.exp(1)" in text
 
@@ -142,7 +141,7 @@ def test_a_constant_of_a_user_may_be_called_spring(tmp_path):
     """Nothing in emitted code is: `spring_alpha` is free beside `spring_alpha_force`."""
     path = tmp_path / "my.toml"
     path.write_text(own("spring/2*(I_1 - 3)", 'spring = "18 kPa"'), encoding="utf-8")
-    assert "spring_alpha" in dict(derive_description(describe(read_model_file(path))))["small.py"]
+    assert "spring_alpha" in dict(derive_description(read_model_file(path)))["small.py"]
 
 
 def test_a_function_without_a_name_in_code_is_refused():
@@ -177,4 +176,4 @@ def test_number_at_is_the_value_or_nan(text, value):
 def test_the_small_model_is_still_taken(tmp_path):
     path = tmp_path / "my.toml"
     path.write_text(SMALL, encoding="utf-8")
-    assert read_model_file(path).branches[0].viscosity == pytest.approx(400.0 * 42e3)
+    assert read_model_file(path).defaults["viscosity"] == pytest.approx(400.0 * 42e3)

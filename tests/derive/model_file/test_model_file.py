@@ -5,6 +5,7 @@ from __future__ import annotations
 import importlib.util
 import re
 import time
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -15,8 +16,9 @@ from delagrange.cli import main
 from delagrange.common.roles import Role, Sign
 from delagrange.derive.emit import write_together as writing
 from delagrange.derive.emit.write_together import write_together
-from delagrange.derive.model_file.describe import describe
-from delagrange.derive.model_file.entries import MaterialSpring, OwnSpring
+from delagrange.derive.equations.described import description_equations
+from delagrange.derive.model_file import formulas
+from delagrange.derive.model_file.expression import read_expression as reading
 from delagrange.derive.model_file.file import read_model_file
 from delagrange.derive.model_file.toml_table import ModelError, lines_of
 from delagrange.derive.pipeline import derive_description
@@ -60,7 +62,7 @@ a = 0.3
 
 @pytest.fixture
 def read(tmp_path):
-    """`read(text)` -> ModelFile of a file that holds it."""
+    """`read(text)` -> Description of the membrane of a file that holds it."""
 
     def reading(text: str):
         path = tmp_path / "my.toml"
@@ -78,14 +80,16 @@ def changed(old: str, new: str, text: str = SMALL) -> str:
 def test_the_example_says_what_it_says():
     model = read_model_file(EXAMPLE)
     assert model.name == EXAMPLE.stem and model.load.kind == "uniaxial"
-    assert (model.body.half_length_1, model.body.half_length_2, model.body.density) == (5e-3, None, 1200.0)
-    assert model.equilibrium_spring == MaterialSpring("Gent", {"shear_modulus": 1.8e4, "locking": 110.0})
-    assert [branch.viscosity for branch in model.branches] == pytest.approx([20.0, 600.0, 4000.0], rel=1e-14)
-    assert isinstance(model.branches[2].spring, OwnSpring)
+    values, names = model.defaults, ("half_length", "density", "shear_modulus_alpha", "locking_alpha")
+    assert [values[name] for name in names] == [5e-3, 1200.0, 1.8e4, 110.0]
+    assert not model.body.unlike and model.equilibrium_spring.name == "Gent"
+    viscosities = [values[branch.viscosity.name] for branch in model.branches]
+    assert viscosities == pytest.approx([20.0, 600.0, 4000.0], rel=1e-14)
+    assert model.branches[2].energy.name == "own"
 
 
-def test_the_example_described_has_a_value_for_every_parameter():
-    description = describe(read_model_file(EXAMPLE))
+def test_the_example_has_a_value_for_every_parameter():
+    description = read_model_file(EXAMPLE)
     names = {
         "half_length", "half_thickness", "density", "permittivity", "shear_modulus_alpha", "locking_alpha",
         "shear_modulus_beta_1", "locking_beta_1", "viscosity_1", "shear_modulus_beta_2", "viscosity_2", "mu_beta_3",
@@ -101,12 +105,12 @@ def test_a_relaxation_time_stands_for_a_viscosity_by_the_modulus_at_rest(read):
     """eta = tau mu with the shear modulus of small strains, which is mu + k for the energy below."""
     own = 'energy = "mu/2*(I_1 - 3) + k/2*(I_2 - 3)"\nparameters = { mu = "30 kPa", k = "12 kPa" }\n'
     text = changed('material = "neo-Hookean"\nshear_modulus = "42 kPa"\n', own)
-    assert read(text).branches[0].viscosity == pytest.approx(400.0 * 4.2e4, rel=1e-12)
-    assert read(SMALL).branches[0].viscosity == pytest.approx(400.0 * 4.2e4, rel=1e-12)
+    assert read(text).defaults["viscosity"] == pytest.approx(400.0 * 4.2e4, rel=1e-12)
+    assert read(SMALL).defaults["viscosity"] == pytest.approx(400.0 * 4.2e4, rel=1e-12)
 
 
 def test_an_own_energy_is_the_energy(read):
-    description = describe(read(changed(GENT, OWN)))
+    description = read(changed(GENT, OWN))
     stretches = sp.symbols("a b c", positive=True)
     energy = description.equilibrium_spring
     mu, a = (quantity.symbol for quantity in energy.parameters)
@@ -122,8 +126,8 @@ def test_rectangles_attachments_damping_and_permittivity(read):
                    'parameters = { e = "62 pF/m", c = 0.01 }', text)  # fmt: skip
     text += '[damping]\nparallel_viscosity = "2 Pa s"\nmedium = 3.0\n'
     text += '[[attachment]]\naxis = 1\nmass = "2 g"\nstiffness = "3 N/m"\n'
-    description = describe(read(text))
-    assert not description.body.is_square and not description.load.lateral_dashpots_free
+    description = read(text)
+    assert description.body.unlike and not description.load.lateral_dashpots_free
     assert description.dielectric.control == "charge"
     law = description.dielectric.permittivity
     assert law.of_stretches((1, 1, 1)) == law.parameters[0].symbol
@@ -136,7 +140,7 @@ def test_rectangles_attachments_damping_and_permittivity(read):
 
 
 def test_a_relation_has_one_coordinate(read):
-    relation = describe(read(changed(LOAD, RELATION))).load.relation
+    relation = read(changed(LOAD, RELATION)).load.relation
     q, (a,) = relation.coordinate.value.symbol, relation.parameters
     assert relation.stretches == (q, q**-a.symbol) and relation.forces == (True, False)
     assert a.name == "relation_a"
@@ -159,16 +163,14 @@ def test_a_coordinate_is_taken_for_positive_where_a_stretch_says_so(
     read, lambda_1, lambda_2, start, positive
 ):
     text = RELATION.replace('lambda_1 = "q"', f'lambda_1 = "{lambda_1}"').replace('"q^-a"', f'"{lambda_2}"')
-    relation = describe(
-        read(changed(LOAD, changed("[load.", f"start = {start}\n[load.", text)))
-    ).load.relation
+    relation = read(changed(LOAD, changed("[load.", f"start = {start}\n[load.", text))).load.relation
     assert bool(relation.coordinate.value.symbol.is_positive) is positive
     assert relation.coordinate.value.unit == "1" and relation.coordinate.rate.unit == "1/s"
     assert relation.start == sp.Rational(start)
 
 
 def test_a_root_of_the_square_of_a_positive_coordinate_is_the_coordinate(read):
-    relation = describe(read(changed(LOAD, changed("q^-a", "q/sqrt(q^2)^a", RELATION)))).load.relation
+    relation = read(changed(LOAD, changed("q^-a", "q/sqrt(q^2)^a", RELATION))).load.relation
     q, (a,) = relation.coordinate.value.symbol, relation.parameters
     assert sp.simplify(relation.stretches[1] - q ** (1 - a.symbol)) == 0
 
@@ -176,18 +178,67 @@ def test_a_root_of_the_square_of_a_positive_coordinate_is_the_coordinate(read):
 def test_no_name_makes_a_coordinate_a_stretch_or_positive(read):
     text = RELATION.replace('"q"\nlambda_1 = "q"', '"stretch"\nlambda_1 = "1 + stretch"')
     text = text.replace("q^-a", "1 + stretch").replace("[load.", "start = 0\n[load.")
-    coordinate = describe(read(changed(LOAD, text))).load.relation.coordinate
+    coordinate = read(changed(LOAD, text)).load.relation.coordinate
     assert (coordinate.value.role, coordinate.value.sign) == (Role.COORDINATE, Sign.ANY)
 
 
 def test_what_may_be_absent_or_negative_may_be_given_so(read):
     """A mass may be zero, a spring may push, and a term of an energy may soften it."""
     softening = 'material = "Mooney-Rivlin"\nshear_modulus = "18 kPa"\nsecond_modulus = "-3 kPa"\n'
-    found = describe(read(changed(GENT, softening, ATTACHED))).defaults
+    found = read(changed(GENT, softening, ATTACHED)).defaults
     assert (found["edge_mass"], found["edge_stiffness"]) == (0.0, -2.0)
     assert found["second_modulus_alpha"] == -3e3
     with pytest.raises(ModelError, match=r"at rest must be positive and finite, its energy has -2000 Pa"):
         read(changed(GENT, softening.replace("-3 kPa", "-20 kPa")))
+
+
+def test_a_frame_may_have_its_force_put_into_the_potential(read):
+    """The formulation of the paper's Eq. (20), for anybody: its motion is not that of mechanics."""
+    load = '[load]\nkind = "pure_shear"\nheld_stretch = 2\n'
+    consistent, inserted = (
+        read(changed(LOAD, f'{load}formulation = "{formulation}"\n'))
+        for formulation in ("consistent", "as_printed")
+    )
+    assert inserted.load.formulation == "as_printed"
+    assert consistent == replace(read(changed(LOAD, load)), equilibrium_spring=consistent.equilibrium_spring,
+                                 branches=consistent.branches, dielectric=consistent.dielectric)  # fmt: skip
+    terms = {each.name: each.vector[0] for each in description_equations(inserted).force_terms}
+    own = {each.name: each.vector[0] for each in description_equations(consistent).force_terms}
+    assert sp.expand(terms["electric_force"] + own["electric_force"]) == 0
+    assert terms["applied_force"] == own["applied_force"]
+
+
+@pytest.mark.parametrize(
+    ("load", "line", "reason"),
+    [
+        ('kind = "uniaxial"\nformulation = "as_printed"\n', 19, "formulation belongs to a load of the kind pure_shear"),
+        ('kind = "pure_shear"\nheld_stretch = 2\nformulation = "printed"\n', 20,
+         "formulation must be one of consistent, as_printed; got 'printed'"),
+    ],
+)  # fmt: skip
+def test_a_formulation_that_does_not_fit_is_refused(read, load, line, reason):
+    with pytest.raises(ModelError, match=f"line {line}: {reason}"):
+        read(changed(LOAD, f"[load]\n{load}"))
+
+
+def test_a_formula_is_read_once(read, monkeypatch):
+    """Energies, a limit, a permittivity and a relation: from the file straight into the description."""
+    texts = []
+    monkeypatch.setattr(
+        formulas, "read_expression", lambda text, names: texts.append(text) or reading(text, names)
+    )
+    text = changed(LOAD, RELATION, changed(GENT, OWN + 'validity = "9 + mu/a - I_1"\n'))
+    law = 'permittivity_formula = "e*(1 - c*(I_1 - 3))"\nparameters = { e = "62 pF/m", c = 0.01 }'
+    read(changed('permittivity = "61.98 pF/m"', law, text))
+    assert sorted(texts) == sorted(
+        [
+            "mu/2*(I_1 - 3) + a*(lambda_1*lambda_2*lambda_3 - 1)^2",
+            "9 + mu/a - I_1",
+            "e*(1 - c*(I_1 - 3))",
+            "q",
+            "q^-a",
+        ]
+    )
 
 
 def test_ogden_terms_are_counted(read):
@@ -195,7 +246,7 @@ def test_ogden_terms_are_counted(read):
         f'ogden_modulus_{k} = "{m} kPa"\nogden_exponent_{k} = {a}\n'
         for k, m, a in ((1, 10, 1.3), (2, -1, -2))
     )
-    energy = describe(read(changed(GENT, terms))).equilibrium_spring
+    energy = read(changed(GENT, terms)).equilibrium_spring
     assert len(energy.parameters) == 4
 
 
@@ -377,7 +428,7 @@ def test_a_file_goes_the_whole_road(emitted):
 
 def test_the_same_file_gives_the_same_modules(emitted):
     path, folder = emitted
-    for name, text in derive_description(describe(read_model_file(path))):
+    for name, text in derive_description(read_model_file(path)):
         assert (folder / name).read_text(encoding="utf-8") == text
 
 

@@ -12,8 +12,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from delagrange.derive.notation import symbols as sym
-from delagrange.derive.papers.paper import TextRepair
-from delagrange.derive.papers.sheng_2015.equations import SHENG_2015
+from delagrange.derive.papers.printed_equation import TextRepair
+from delagrange.derive.papers.sheng_2015 import symbols as paper
+from delagrange.derive.papers.sheng_2015.paper import PAPER as SHENG_2015
 from delagrange.derive.printed.latex import (
     LatexError,
     check_printed,
@@ -41,7 +42,7 @@ def test_equations_4_to_21_are_there_and_22_is_recorded_as_lost() -> None:
     assert list(NUMBERS) == [str(number) for number in range(4, 22)]
     lost = SHENG_2015["22"]
     assert lost.latex is None
-    assert (lost.quantity, lost.load_case) == ("dashpot_rate_1", "pure_shear")
+    assert (lost.quantity, lost.load) == ("dashpot_rate_1", "pure_shear")
     with pytest.raises(ValueError, match=r"Eq. \(22\) is missing in the text"):
         SHENG_2015.read("22")
 
@@ -92,7 +93,7 @@ def test_repair_must_apply_exactly_once(old: str) -> None:
 
 def test_equation_7_as_typed_by_hand() -> None:
     rho, L, H = (quantity.symbol for quantity in (sym.DENSITY, sym.HALF_LENGTH, sym.HALF_THICKNESS))
-    stretch, rate = sym.STRETCH_EB.value.symbol, sym.STRETCH_EB.rate.symbol
+    stretch, rate = paper.STRETCH_EB.value.symbol, paper.STRETCH_EB.rate.symbol
     inertia = sp.Rational(8, 3) * rho * L**4 * H + sp.Rational(16, 3) * rho * L**2 * H**3 / stretch**6
     assert to_sympy(READ["7"].lhs) == sym.KINETIC_ENERGY.symbol
     assert sp.expand(to_sympy(READ["7"].rhs) - inertia * rate**2) == 0
@@ -100,8 +101,8 @@ def test_equation_7_as_typed_by_hand() -> None:
 
 def test_equation_10_as_typed_by_hand() -> None:
     mu, eta = sym.SHEAR_MODULUS_BETA.symbol, sym.VISCOSITY.symbol
-    stretch, inelastic = sym.STRETCH_EB.value.symbol, sym.INELASTIC_STRETCH_EB.value.symbol
-    assert to_sympy(READ["10"].lhs) == sym.INELASTIC_STRETCH_EB.rate.symbol
+    stretch, inelastic = paper.STRETCH_EB.value.symbol, paper.INELASTIC_STRETCH_EB.value.symbol
+    assert to_sympy(READ["10"].lhs) == paper.INELASTIC_STRETCH_EB.rate.symbol
     expected = mu / (6 * eta) * (stretch**2 / inelastic - inelastic**5 / stretch**4)
     assert sp.expand(to_sympy(READ["10"].rhs) - expected) == 0
 

@@ -11,7 +11,7 @@ import mpmath
 import pytest
 
 from delagrange.derive.notation import symbols as sym
-from delagrange.derive.papers.sheng_2015.equations import SHENG_2015
+from delagrange.derive.papers.sheng_2015.paper import PAPER as SHENG_2015
 from delagrange.derive.printed.edits import Edit, partners, single_edits
 from delagrange.derive.printed.latex import Equation, SymbolTable, evaluate, read_equation, to_latex
 from delagrange.derive.printed.symbol_table import name_of
@@ -52,7 +52,7 @@ def _values() -> dict:
     with mpmath.workdps(40):
         return {
             quantity.symbol: 1 + mpmath.frac(mpmath.sqrt(7 * index + 3)) / 3
-            for index, quantity in enumerate(sym.QUANTITIES)
+            for index, quantity in enumerate(SHENG_2015.table.entries.values())
         }
 
 
@@ -224,7 +224,7 @@ def _raises_length_to_the_fifth(edit: Edit) -> bool:
 def test_order_does_not_depend_on_the_hash_seed() -> None:
     program = (
         "from delagrange.derive.printed.edits import single_edits\n"
-        "from delagrange.derive.papers.sheng_2015.equations import SHENG_2015\n"
+        "from delagrange.derive.papers.sheng_2015.paper import PAPER as SHENG_2015\n"
         "for edit in single_edits(SHENG_2015.read('15'), wide=True): print(edit)\n"
     )
     outputs = [

@@ -12,6 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from delagrange.derive.notation import symbols as sym
+from delagrange.derive.papers.sheng_2015 import symbols as paper
 from delagrange.derive.printed.latex import (
     Equation,
     LatexError,
@@ -34,18 +35,18 @@ TABLE = SymbolTable.of(
         r"\mu^{\alpha}": sym.SHEAR_MODULUS_ALPHA,
         r"\mu^{\beta}": sym.SHEAR_MODULUS_BETA,
         r"\eta": sym.VISCOSITY,
-        r"\lambda_{UA1}": sym.STRETCH_UA1,
-        r"\xi_{EB}": sym.INELASTIC_STRETCH_EB,
+        r"\lambda_{UA1}": paper.STRETCH_UA1,
+        r"\xi_{EB}": paper.INELASTIC_STRETCH_EB,
     }
 )
 L, H = sym.HALF_LENGTH.symbol, sym.HALF_THICKNESS.symbol
 mu_alpha, mu_beta = sym.SHEAR_MODULUS_ALPHA.symbol, sym.SHEAR_MODULUS_BETA.symbol
 stretch, rate, acceleration = (
-    sym.STRETCH_UA1.value.symbol,
-    sym.STRETCH_UA1.rate.symbol,
-    sym.STRETCH_UA1.acceleration.symbol,
+    paper.STRETCH_UA1.value.symbol,
+    paper.STRETCH_UA1.rate.symbol,
+    paper.STRETCH_UA1.acceleration.symbol,
 )
-inelastic_rate = sym.INELASTIC_STRETCH_EB.rate.symbol
+inelastic_rate = paper.INELASTIC_STRETCH_EB.rate.symbol
 
 
 def _read(latex: str) -> Equation:

@@ -1,0 +1,1 @@
+"""Papers of the tests: each a folder, as in `delagrange.derive.papers`."""
