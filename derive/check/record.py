@@ -37,12 +37,14 @@ def record_path(paper: Paper) -> Path:
 
 
 def recorded(paper: Paper) -> list[dict[str, Any]]:
-    """The verdicts as they stand in the record of a paper.
+    """The verdicts as they stand in the record of a paper; none of one that was never recorded.
 
     Raises:
         ValueError: the record cannot be read, is not JSON, or an entry lacks its number or model.
     """
     path = record_path(paper)
+    if not path.exists():
+        return []
     try:
         return _entries(json.loads(path.read_text(encoding="utf-8")))
     except (OSError, ValueError) as error:

@@ -20,23 +20,20 @@ a = 0.3
 from __future__ import annotations
 
 from delagrange.derive.membrane.description import (
-    BIAXIAL,
     CONSTRAINED_VARIATION,
-    EQUAL_BIAXIAL,
+    FREE,
     PURE_SHEAR,
     REACTION_IN_POTENTIAL,
     RELATION,
-    UNIAXIAL,
     Load,
 )
+from delagrange.derive.membrane.loads import LOADS
 from delagrange.derive.model_file.relation import read_relation
 from delagrange.derive.model_file.toml_table import Table
 from delagrange.derive.notation import symbols as s
 
-_KEYS = {
-    EQUAL_BIAXIAL: (),
-    UNIAXIAL: (),
-    BIAXIAL: (),
+_KINDS = tuple(kind for kind in LOADS if kind != FREE)  # of a rectangle; all of its coordinates free are `biaxial`
+_KEYS = {  # beside the kind, of those that have some
     PURE_SHEAR: ("held_stretch", "lateral_dashpots", "formulation"),
     RELATION: ("coordinate", "lambda_1", "lambda_2", "start", "forces", "parameters"),
 }
@@ -51,9 +48,9 @@ def read_load(table: Table) -> tuple[Load, dict[str, float]]:
         ModelError: an unknown kind or key, a key that over-determines the stretches, or a relation that
             leaves no freedom, cannot be read, or gives a stretch that is not positive at the start.
     """
-    kind = table.choice("kind", _KEYS)
+    kind = table.choice("kind", _KINDS)
     _refuse_more_than_enough(table, kind)
-    table.only("kind", *_KEYS[kind])
+    table.only("kind", *_KEYS.get(kind, ()))
     if kind == RELATION:
         relation, values = read_relation(table, KEYS)
         return Load(kind, relation=relation), values
@@ -72,7 +69,7 @@ def _refuse_more_than_enough(table: Table, kind: str) -> None:
             table.refuse(
                 f"{key} over-determines the load: it follows from lambda_1 lambda_2 lambda_3 = 1", key
             )
-        if key in KEYS and key not in ("kind", *_KEYS[kind]):
+        if key in KEYS and key not in ("kind", *_KEYS.get(kind, ())):
             belongs = next(other for other, keys in _KEYS.items() if key in keys)
             reason = (
                 f"{key} belongs to a load of the kind {belongs} and over-determines one of the kind {kind}"

@@ -157,10 +157,14 @@ def test_a_broken_record_is_one_line(text, reason, option, prepared, folder, cap
     assert not folder.exists() and prepared.read_text(encoding="utf-8") == text
 
 
-def test_a_record_that_is_not_there_is_one_line(prepared, folder, capsys):
+def test_where_nothing_is_recorded_every_verdict_departs(prepared, folder, capsys):
+    """As those of a new paper, until they are looked at and recorded."""
     prepared.unlink()
-    assert derive(out=folder) == 2
-    assert only_line(capsys.readouterr().err).endswith("cannot be read: No such file or directory")
+    assert derive(out=folder) == 1
+    *departed, last = capsys.readouterr().err.splitlines()
+    assert len(departed) == len(pipeline.walk().verdicts) and "--record" in last
+    assert all(line.endswith("recorded nothing") for line in departed)
+    assert not folder.exists() and not prepared.exists()
 
 
 def test_an_unreadable_equation_is_one_line(prepared, folder, capsys, monkeypatch):
