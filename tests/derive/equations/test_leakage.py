@@ -300,4 +300,4 @@ def test_siemens_are_amperes_over_volts():
 
 
 def test_a_membrane_may_be_said_to_leak_nothing(tmp_path):
-    assert read(tmp_path, LEAKY_FILE.replace('"6 nS/m"', "0")).dielectric.conductivity == 0.0
+    assert read(tmp_path, LEAKY_FILE.replace('"6 nS/m"', "0")).defaults["conductivity"] == 0.0
