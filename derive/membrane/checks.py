@@ -47,13 +47,8 @@ def check_names(model: str, quantities: tuple[Quantity, ...]) -> None:
     """No two quantities may share a symbol or a name in code.
 
     Raises:
-        ValueError: two do, or a name is none that code can use.
+        ValueError: two do.
     """
-    for quantity in quantities:
-        if not quantity.name.isidentifier() or iskeyword(quantity.name):
-            raise ValueError(
-                f"model {model}: quantity {quantity.name!r}; allowed is a name that code can use"
-            )
     for one, other in combinations(quantities, 2):
         if one.name == other.name or one.symbol == other.symbol:
             raise ValueError(
