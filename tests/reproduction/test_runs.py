@@ -70,7 +70,7 @@ def test_every_curve_is_what_frequency_response_gives(figure, formulation, numer
         force=load.force,
         field_amplitude=load.field_amplitude,
         held_stretch=load.held_stretch,
-        frequency=frequency * numerics.pi / np.pi,
+        frequency=numerics.drive_frequency(frequency),
         duration=0.01,
         method=numerics.method,
         rtol=numerics.rtol,
