@@ -7,7 +7,7 @@ precision settles the matter; one that is zero there has to be proved zero.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from random import Random
 
@@ -16,6 +16,7 @@ import sympy as sp
 
 from delagrange.derive.equations.derived_equations import DerivedEquation
 from delagrange.derive.notation.printer import text_printer
+from delagrange.derive.notation.symbols import Quantity
 from delagrange.derive.printed.tree import Equation
 from delagrange.derive.printed.values import evaluate, evaluate_roughly, to_sympy
 
@@ -78,11 +79,10 @@ def _valid_point(symbols: tuple[sp.Symbol, ...], random: Random, validity: tuple
     return point
 
 
-def witness(derived: DerivedEquation, known: tuple[sp.Symbol, ...]) -> Witness:
-    """Evaluate a derived equation; `known` are all symbols that a printed equation may use."""
+def witness(derived: DerivedEquation, others: Iterable[Quantity] = ()) -> Witness:
+    """Evaluate a derived equation; `others` are what a printed one may use beyond the quantities of the model."""
     random, unknown = Random(_SEED), derived.unknown.symbol
-    own = (each.free_symbols for each in (derived.residual, *derived.validity))
-    symbols = tuple(sorted(set(known).union(*own), key=str))
+    symbols = tuple(sorted({each.symbol for each in (*derived.quantities, *others)}, key=str))
     residual = sp.lambdify(symbols, derived.residual, "mpmath")
     slope = sp.lambdify(symbols, derived.residual.diff(unknown), "mpmath")
     with mpmath.workdps(_DIGITS):

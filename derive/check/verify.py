@@ -5,26 +5,18 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 
-import sympy as sp
-
 from delagrange.derive.check.compare import Comparison, Witness, compare, witness
 from delagrange.derive.check.explain import corrections, fewest_unmatched
 from delagrange.derive.check.verdict import Outcome, Verdict
 from delagrange.derive.equations.derived_equations import DerivedEquation, derived_equations
 from delagrange.derive.equations.euler_lagrange import EquationsOfMotion
 from delagrange.derive.notation.printer import text_printer
-from delagrange.derive.notation.symbols import Quantity
 from delagrange.derive.papers.paper import Paper, PrintedEquation
 from delagrange.derive.printed.dimensions import check_printed
 from delagrange.derive.printed.tree import Equation, walk
 
 _LONGEST_CORRECTED = 600  # parts of a printed tree; the edits to try, and the time of each, grow with them
 _TOO_LONG = "too long to try what single edit would mend it"
-
-
-def symbols_of(quantities: tuple[Quantity, ...]) -> tuple[sp.Symbol, ...]:
-    """The symbols of the algebra that a printed equation may use."""
-    return tuple(quantity.symbol for quantity in quantities)
 
 
 def printed_for(eom: EquationsOfMotion, paper: Paper) -> tuple[PrintedEquation, ...]:
@@ -52,8 +44,7 @@ def _verdict(printed: PrintedEquation, derived: Mapping[str, DerivedEquation], p
     equation = derived[printed.quantity]
     if printed.latex is None:
         return _missing(printed, equation)
-    known = symbols_of((*equation.quantities, *paper.table.entries.values()))
-    verdict = verdict_on(printed.read(paper.table), witness(equation, known))
+    verdict = verdict_on(printed.read(paper.table), witness(equation, paper.table.entries.values()))
     repairs = (f"read {r.new} for {r.old}" for r in printed.repairs)
     note = "; ".join(filter(None, (verdict.note, printed.note, *repairs)))
     return replace(verdict, number=printed.number, note=note)

@@ -127,7 +127,7 @@ def state_of(load_case: LoadCase, balance: ChargeBalance | None = None) -> tuple
 def quantities_of(model: Membrane, load_case: LoadCase) -> tuple[Quantity, ...]:
     """All quantities that the equations of a model are written in, each once."""
     moving = (*load_case.coordinates, *load_case.internals)
-    parts = (part for each in moving for part in (each.value, each.rate, each.acceleration))
+    parts = (part for each in moving for part in each.parts)
     balance = model.charge_balance
     charge = () if balance is None else (balance.charge, balance.rate)
     known = (

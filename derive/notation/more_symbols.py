@@ -1,7 +1,4 @@
-"""Quantities of models that users describe, beyond those of the paper in `derive.symbols`.
-
-They stand in no table: a model carries its own quantities (`EquationsOfMotion.quantities`).
-"""
+"""Quantities of what a membrane may have beyond those of `symbols`: sides of two lengths, dampers, edges, charges."""
 
 from __future__ import annotations
 

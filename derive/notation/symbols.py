@@ -36,6 +36,11 @@ class TimeDependent:
     rate: Quantity
     acceleration: Quantity
 
+    @property
+    def parts(self) -> tuple[Quantity, Quantity, Quantity]:
+        """By order of the time derivative."""
+        return self.value, self.rate, self.acceleration
+
 
 def quantity(
     key: str,

@@ -74,7 +74,7 @@ class SymbolTable:
         """
         named: dict[Name, Quantity] = {}
         for key, meaning in entries.items():
-            for name, quantity in _rates(name_of(key), meaning):
+            for name, quantity in with_rates(name_of(key), meaning):
                 if name in named:
                     raise ValueError(f"symbol {name} stands twice in the symbol table")
                 named[name] = quantity
@@ -96,11 +96,11 @@ class SymbolTable:
         return tuple(near) or tuple(key for key, known in keys.items() if not known.dots)
 
 
-def _rates(name: Name, meaning: Quantity | TimeDependent) -> tuple[tuple[Name, Quantity], ...]:
+def with_rates(name: Name, meaning: Quantity | TimeDependent) -> tuple[tuple[Name, Quantity], ...]:
+    """A name with what it stands for; of what moves, its rates under dots as well."""
     if isinstance(meaning, Quantity):
         return ((name, meaning),)
-    moving = (meaning.value, meaning.rate, meaning.acceleration)
-    return tuple((replace(name, dots=dots), quantity) for dots, quantity in enumerate(moving))
+    return tuple((replace(name, dots=dots), quantity) for dots, quantity in enumerate(meaning.parts))
 
 
 def name_of(key: str) -> Name:

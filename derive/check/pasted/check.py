@@ -18,7 +18,7 @@ from delagrange.derive.check.pasted.abbreviation import substituted
 from delagrange.derive.check.pasted.bounds import check_length, check_size, in_brief
 from delagrange.derive.check.pasted.symbols import ModelSymbols, SymbolEntry, entries_of, symbols_of_model
 from delagrange.derive.check.verdict import Verdict
-from delagrange.derive.check.verify import symbols_of, verdict_on
+from delagrange.derive.check.verify import verdict_on
 from delagrange.derive.equations.derived_equations import DerivedEquation, derived_equations
 from delagrange.derive.equations.described import description_equations
 from delagrange.derive.equations.euler_lagrange import EquationsOfMotion
@@ -95,7 +95,7 @@ class _Subject:
     def witness(self, name: str) -> Witness:
         if name not in self.witnesses:
             equation = self.derived[name]
-            self.witnesses[name] = witness(equation, symbols_of(equation.quantities))
+            self.witnesses[name] = witness(equation)
         return self.witnesses[name]
 
     def verdict(self, pasted: PastedEquation, place: int) -> Verdict:

@@ -25,7 +25,7 @@ from delagrange.derive.check.pasted.abbreviation import Abbreviation, read_abbre
 from delagrange.derive.check.pasted.bounds import check_symbol_length
 from delagrange.derive.equations.euler_lagrange import EquationsOfMotion
 from delagrange.derive.notation.symbols import Quantity, TimeDependent
-from delagrange.derive.printed.symbol_table import GREEK, Name, SymbolTable, name_of
+from delagrange.derive.printed.symbol_table import GREEK, Name, SymbolTable, name_of, with_rates
 from delagrange.derive.printed.tokens import LatexError
 
 _VARIANTS = MappingProxyType({r"\varepsilon": r"\epsilon", r"\epsilon": r"\varepsilon"})
@@ -80,11 +80,13 @@ def symbols_of_model(eom: EquationsOfMotion, entries: Iterable[SymbolEntry] = ()
     """
     meanings = _meanings(eom)
     names = _own_names(meanings)
-    table = {name: quantity for name, meaning in names for name, quantity in _rates(name, meaning)}
+    table = {name: quantity for name, meaning in names for name, quantity in with_rates(name, meaning)}
     for name, meaning in _synonyms(names, eom):
-        for spelt, quantity in _rates(name, meaning):
+        for spelt, quantity in with_rates(name, meaning):
             table.setdefault(spelt, quantity)
-    printed = {quantity.symbol: name for name, meaning in names for name, quantity in _rates(name, meaning)}
+    printed = {
+        quantity.symbol: name for name, meaning in names for name, quantity in with_rates(name, meaning)
+    }
     return _with_entries(ModelSymbols(_frozen(table), MappingProxyType(printed)), meanings, entries, eom)
 
 
@@ -98,16 +100,9 @@ _Meaning = Quantity | TimeDependent
 def _meanings(eom: EquationsOfMotion) -> tuple[_Meaning, ...]:
     """Everything that has a symbol: what moves, with its rates, then all that does not."""
     moving = (*eom.load_case.coordinates, *eom.load_case.internals)
-    parts = {part for each in moving for part in (each.value, each.rate, each.acceleration)}
+    parts = {part for each in moving for part in each.parts}
     still = (each for each in eom.quantities if each not in parts)
     return (*moving, *still)
-
-
-def _rates(name: Name, meaning: _Meaning) -> tuple[tuple[Name, Quantity], ...]:
-    if isinstance(meaning, Quantity):
-        return ((name, meaning),)
-    moving = (meaning.value, meaning.rate, meaning.acceleration)
-    return tuple((replace(name, dots=dots), quantity) for dots, quantity in enumerate(moving))
 
 
 # --- the model's own notation ----------------------------------------------------------------------
@@ -193,7 +188,7 @@ def _with_entries(
             found.append(own)
             table[name] = own.placeholder
         else:
-            table.update(_rates(name, _meaning(each, name, known, eom.load_case.name)))
+            table.update(with_rates(name, _meaning(each, name, known, eom.load_case.name)))
     return ModelSymbols(_frozen(table), symbols.names, tuple(found))
 
 

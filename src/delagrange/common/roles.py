@@ -42,8 +42,6 @@ class Role(StrEnum):
 
     # What is no variable of a model
     ENERGY = "energy"
-    TIME = "time"
-    PLACE = "place"
 
 
 class Sign(StrEnum):

@@ -30,7 +30,7 @@ CORRECTED = {
            r"- \lambda_{\mathrm{UA1}}^{-2} \lambda_{\mathrm{UA2}}^{-2} \xi_{\mathrm{UA1}}^{3} \xi_{\mathrm{UA2}}^{2}"),
     "16": (r"{3\eta}", r"{6\eta}"),
 }  # fmt: skip
-KNOWN = tuple(quantity.symbol for quantity in SHENG_2015.table.entries.values())
+KNOWN = tuple(SHENG_2015.table.entries.values())
 NUMBERS = [equation.number for equation in SHENG_2015.readable]
 
 
@@ -88,7 +88,8 @@ def _solved(tree, unknown, values: dict) -> tuple[Fraction | None, Fraction]:
 def _points():
     random = Random(7)
     return [
-        {symbol: Fraction(random.randint(3, 97), random.randint(3, 97)) for symbol in KNOWN} for _ in range(2)
+        {each.symbol: Fraction(random.randint(3, 97), random.randint(3, 97)) for each in KNOWN}
+        for _ in range(2)
     ]
 
 

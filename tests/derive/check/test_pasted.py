@@ -17,7 +17,7 @@ from delagrange.derive.check.pasted.symbols import symbols_of_model
 from delagrange.derive.check.record import recorded
 from delagrange.derive.check.report import detail
 from delagrange.derive.check.verdict import Outcome
-from delagrange.derive.check.verify import symbols_of, verdict_on, witness
+from delagrange.derive.check.verify import verdict_on, witness
 from delagrange.derive.equations.derived_equations import derived_equations
 from delagrange.derive.equations.described import description_equations
 from delagrange.derive.model_file.file import read_model_file
@@ -203,7 +203,7 @@ def test_derived_equations_printed_read_back_as_equal():
 def test_every_mutation_of_one_place_differs(quantity):
     """Sign, coefficient and exponent; those that leave the mathematics as it was are told by numbers."""
     equation = derived_equations(gent())[quantity]
-    subject = witness(equation, symbols_of(equation.quantities))
+    subject = witness(equation)
     tree = read_pasted(PastedEquation(_listed()[quantity]), symbols_of_model(gent()), "1")
     edits = [edit for edit in single_edits(tree) if edit.kind in ("sign", "coefficient", "exponent")]
     assert len(edits) > 20

@@ -27,7 +27,7 @@ from delagrange.derive.papers.sheng_2015.paper import PAPER as SHENG_2015
 from delagrange.derive.printed.latex import read_equation
 from delagrange.derive.printed.tree import Number, walk
 
-KNOWN = tuple(quantity.symbol for quantity in SHENG_2015.table.entries.values())
+KNOWN = tuple(SHENG_2015.table.entries.values())
 MODELS = (
     "biaxial", "equal_biaxial", "uniaxial", "pure_shear_as_printed", "pure_shear_consistent",
     "pure_shear_consistent_free",
