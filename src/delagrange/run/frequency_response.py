@@ -25,9 +25,9 @@ from delagrange.run.run_dataset import (
     AMPLITUDE_DEFINITION,
     average_variables,
     extrema_variables,
-    final_variables,
     run_attributes,
     sample_variables,
+    state_variables,
     status_time_variable,
     status_variable,
     variable,
@@ -184,7 +184,8 @@ def _measured_variables(sweep: Sweep, outcome: Outcome, measure: dict[str, objec
     if measures.averages:
         data |= average_variables(model, outcome, dimensions, shape, measure)
     if measures.final_state:
-        data |= final_variables(model, outcome, dimensions, shape)
+        states = outcome.state.reshape(-1, *shape)
+        data |= state_variables(model, dimensions, states, "at the end", "final_")
     if measures.section_points is not None:
         data |= sample_variables(model, outcome.samples, (*dimensions, "period"), shape, "section_")
         data["section_time"] = _section_time(sweep)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping
 from importlib.metadata import version
 from pathlib import Path
 from types import ModuleType
@@ -11,6 +12,7 @@ import xarray as xr
 
 from delagrange.engines.lanes import Outcome
 from delagrange.model.user_files import is_users
+from delagrange.model.variables import role_of
 from delagrange.problem.problem import Problem
 from delagrange.problem.status import COMPLETED, STATUS, STATUS_MEANING, Limits
 
@@ -46,6 +48,44 @@ def status_time_variable(dimensions: str | tuple[str, ...], times: object) -> tu
     return variable(dimensions, times, "s", "time at which the run ended")
 
 
+def state_variables(
+    model: ModuleType,
+    dimensions: str | tuple[str, ...],
+    states: Iterable[np.ndarray],
+    where: str = "",
+    prefix: str = "",
+) -> dict[str, tuple]:
+    """Every state variable, whose values are the rows of `states`, named with a prefix; `where` says when it is so."""
+    said = f", {where}" if where else ""
+    return {
+        prefix + entry.name: variable(
+            dimensions, values, entry.unit, entry.meaning + said, entry.symbol, role=str(role_of(entry))
+        )
+        for entry, values in zip(model.STATE, states)
+    }
+
+
+def coordinate_variables(
+    model: ModuleType,
+    dimensions: str | tuple[str, ...],
+    measured: Mapping[str, np.ndarray],
+    about: Mapping[str, Mapping[str, object]],
+    prefix: str = "",
+) -> dict[str, tuple]:
+    """What is measured of every coordinate, each (n_coordinates, ...); that of the first goes without its name.
+
+    about: further attributes of what is measured, by its name
+    """
+    data = {}
+    for place, entry in enumerate(model.STATE[: model.COORDINATE_COUNT]):
+        for what, values in measured.items():
+            name = f"{prefix}{entry.name}_{what}" if place else prefix + what
+            long_name = f"{what.replace('_', ' ')} of the {entry.meaning}"
+            more = about.get(what, {})
+            data[name] = variable(dimensions, values[place], entry.unit, long_name, entry.symbol, **more)
+    return data
+
+
 def extrema_variables(
     model: ModuleType,
     outcome: Outcome,
@@ -57,19 +97,14 @@ def extrema_variables(
 
     The amplitude is NaN where the run was lost, an extremum where the run did not reach the window.
     """
+    maximum, minimum = (
+        np.where(np.isfinite(values), values, np.nan).reshape(-1, *shape)
+        for values in (outcome.maximum, outcome.minimum)
+    )
     completed = outcome.status.reshape(shape) == COMPLETED
-    data = {}
-    for place, entry in enumerate(model.STATE[: model.COORDINATE_COUNT]):
-        maximum, minimum = (
-            np.where(np.isfinite(values[place]), values[place], np.nan).reshape(shape)
-            for values in (outcome.maximum, outcome.minimum)
-        )
-        amplitude = np.where(completed, (maximum - minimum) / 2, np.nan)
-        prefix = f"{entry.name}_" if place else ""
-        for what, values in (("amplitude", amplitude), ("maximum", maximum), ("minimum", minimum)):
-            long_name = f"{what} of the {entry.meaning}"
-            data[prefix + what] = variable(dimensions, values, entry.unit, long_name, entry.symbol, **measure)
-    return data
+    amplitude = np.where(completed, (maximum - minimum) / 2, np.nan)
+    measured = {"amplitude": amplitude, "maximum": maximum, "minimum": minimum}
+    return coordinate_variables(model, dimensions, measured, dict.fromkeys(measured, measure))
 
 
 def average_variables(
@@ -83,31 +118,13 @@ def average_variables(
 
     Named as the extrema are, each with its own definition.
     """
-    completed = outcome.status == COMPLETED
     averages = {"mean": outcome.mean, "root_mean_square": np.sqrt(outcome.mean_square)}
-    data = {}
-    for place, entry in enumerate(model.STATE[: model.COORDINATE_COUNT]):
-        prefix = f"{entry.name}_" if place else ""
-        for what, averaged in averages.items():
-            values = np.where(completed, averaged[place], np.nan).reshape(shape)
-            long_name = f"{what.replace('_', ' ')} of the {entry.meaning}"
-            attributes = measure | {"definition": AVERAGE_DEFINITIONS[what]}
-            data[prefix + what] = variable(
-                dimensions, values, entry.unit, long_name, entry.symbol, **attributes
-            )
-    return data
-
-
-def final_variables(
-    model: ModuleType, outcome: Outcome, dimensions: tuple[str, ...], shape: tuple[int, ...]
-) -> dict[str, tuple]:
-    """The state in which every run of a grid ended, at the loss where it was lost."""
-    return {
-        f"final_{entry.name}": variable(
-            dimensions, values.reshape(shape), entry.unit, f"{entry.meaning}, at the end", entry.symbol
-        )
-        for entry, values in zip(model.STATE, outcome.state)
+    measured = {
+        what: np.where(outcome.status == COMPLETED, values, np.nan).reshape(-1, *shape)
+        for what, values in averages.items()
     }
+    about = {what: measure | {"definition": AVERAGE_DEFINITIONS[what]} for what in averages}
+    return coordinate_variables(model, dimensions, measured, about)
 
 
 def sample_variables(
@@ -117,11 +134,8 @@ def sample_variables(
 
     samples: (count, n_state, n_runs), taken as they are: the variables are views of them
     """
-    data = {}
-    for place, entry in enumerate(model.STATE):
-        values = np.moveaxis(samples[:, place].reshape(-1, *shape), 0, -1)
-        data[prefix + entry.name] = variable(dimensions, values, entry.unit, entry.meaning, entry.symbol)
-    return data
+    rows = (np.moveaxis(values.reshape(-1, *shape), 0, -1) for values in np.moveaxis(samples, 1, 0))
+    return state_variables(model, dimensions, rows, prefix=prefix)
 
 
 def forces_text(found: xr.Dataset) -> str:

@@ -15,7 +15,7 @@ from delagrange.drives.inputs import Inputs, input_name
 from delagrange.equilibrium.start import starting_state
 from delagrange.model.load import check_offers
 from delagrange.model.parameters import Parameters
-from delagrange.model.variables import role_of, sign_of
+from delagrange.model.variables import sign_of
 from delagrange.problem import status as loss
 from delagrange.problem.initial import start_attributes
 from delagrange.problem.problem import Problem, make_specimen
@@ -23,7 +23,13 @@ from delagrange.problem.status import Limits
 from delagrange.problem.tolerances import check_duration, check_tolerances
 from delagrange.problem.trajectory import EXPLICIT, METHODS, Trajectory, integrate
 from delagrange.run.electrodes import electrode_variables, powers_of
-from delagrange.run.run_dataset import run_attributes, status_time_variable, status_variable, variable
+from delagrange.run.run_dataset import (
+    run_attributes,
+    state_variables,
+    status_time_variable,
+    status_variable,
+    variable,
+)
 
 _SPACING = 25e-6  # [s], some 40 samples in a period of the paper's membrane
 _FEWEST_SAMPLES, _MOST_SAMPLES = 2001, 1_000_001
@@ -166,7 +172,7 @@ def _dataset(
     with np.errstate(all="ignore"):
         inputs = [np.broadcast_to(values, times.shape) for values in problem.inputs(times)]
         data = {
-            **_state_variables(problem, trajectory.state),
+            **state_variables(problem.model, "time", trajectory.state),
             **_input_variables(problem, inputs),
             **_derived_variables(problem, trajectory.state, inputs),
             **electrode_variables(problem, trajectory.state, inputs),
@@ -176,15 +182,6 @@ def _dataset(
     data["status_time"] = status_time_variable((), trajectory.status_time)
     attributes |= {"status": loss.STATUS[trajectory.status], "status_time": trajectory.status_time}
     return xr.Dataset(data, coords={"time": variable("time", times, "s", "time", "t")}, attrs=attributes)
-
-
-def _state_variables(problem: Problem, state: np.ndarray) -> dict[str, tuple]:
-    return {
-        entry.name: variable(
-            "time", values, entry.unit, entry.meaning, entry.symbol, role=str(role_of(entry))
-        )
-        for entry, values in zip(problem.model.STATE, state)
-    }
 
 
 def _input_variables(problem: Problem, inputs: list[np.ndarray]) -> dict[str, tuple]:

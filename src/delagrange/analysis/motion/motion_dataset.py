@@ -8,7 +8,7 @@ from delagrange.analysis.motion.evidence import Evidence
 from delagrange.analysis.motion.motion import Motion
 from delagrange.analysis.motion.observation import Observation
 from delagrange.analysis.motion.verdict import Verdict
-from delagrange.run.run_dataset import variable
+from delagrange.run.run_dataset import state_variables, variable
 
 _BASES = (
     "the forcing's first, over the period multiple; then the strongest lines that make, by whole numbers, all "
@@ -106,9 +106,5 @@ def _section_variables(motion: Motion, observation: Observation) -> dict[str, tu
     times = observation.times[:: motion.forcing.samples]
     forced = bool(motion.forcing.frequencies)
     when = "once in a period of the forcing" if forced else "once in a period of the fastest small vibration"
-    return {
-        f"section_{entry.name}": variable(
-            "point", values, entry.unit, f"{entry.meaning}, {when}", entry.symbol
-        )
-        for entry, values in zip(motion.model.STATE, section.T)
-    } | {"section_time": variable("point", times, "s", f"time of the section, {when}", "t")}
+    data = state_variables(motion.model, "point", section.T, when, "section_")
+    return data | {"section_time": variable("point", times, "s", f"time of the section, {when}", "t")}

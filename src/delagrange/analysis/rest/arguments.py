@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from itertools import product
 from types import ModuleType
@@ -30,7 +30,7 @@ from delagrange.problem.initial import single_initial
 from delagrange.problem.problem import Problem, Specimen, make_specimen
 from delagrange.problem.status import Limits, checked_limits
 from delagrange.run.grid import Grid, make_grid
-from delagrange.run.run_dataset import run_attributes, variable
+from delagrange.run.run_dataset import run_attributes, state_variables, variable
 
 FROZEN_MEANING = "frozen: the dashpots stay as in the reference state or in initial_state"
 RELAXED_MEANING = "relaxed: the dashpots are at rest, too"
@@ -184,10 +184,16 @@ def single_case(cases: Cases, purpose: str) -> Cases:
     return cases
 
 
-def stretch_alias(model: ModuleType) -> dict[str, str]:
-    """`{"stretch": name}` where the first coordinate is a stretch with another name."""
-    first = model.STATE[0]
-    return {"stretch": first.name} if first.name != "stretch" and is_stretch(first) else {}
+def resting_variables(
+    model: ModuleType,
+    dimensions: str | tuple[str, ...],
+    states: Iterable[np.ndarray],
+    where: str = "",
+    prefix: str = "",
+) -> dict[str, tuple]:
+    """As `delagrange.run.run_dataset.state_variables`; a first coordinate that is a stretch goes as `stretch`, too."""
+    data = state_variables(model, dimensions, states, where, prefix)
+    return data | {prefix + first_coordinate(model): data[prefix + model.STATE[0].name]}
 
 
 def first_coordinate(model: ModuleType) -> str:

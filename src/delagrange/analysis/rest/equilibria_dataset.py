@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from delagrange.analysis.rest.arguments import stretch_alias
+from delagrange.analysis.rest.arguments import resting_variables
 from delagrange.analysis.rest.criteria import Criteria, breakdown_margin, material, tension_margin
 from delagrange.drives.inputs import ELECTRIC_FIELD, ElectricalInput
 from delagrange.equilibrium.branches import LIMIT_MEANING, LimitPoint
@@ -92,10 +92,4 @@ def _state_variables(
             dimension, fields, electrical.unit, long_name, electrical.symbol
         )
     }
-    for entry, values in zip(model.STATE, states):
-        data[prefix + entry.name] = variable(
-            dimension, values, entry.unit, f"{entry.meaning}, {where}", entry.symbol
-        )
-    for alias, name in stretch_alias(model).items():
-        data[prefix + alias] = data[prefix + name]
-    return data
+    return data | resting_variables(model, dimension, states, where, prefix)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from delagrange.analysis.rest.arguments import stretch_alias
+from delagrange.analysis.rest.arguments import resting_variables
 from delagrange.analysis.rest.criteria import (
     BREAKDOWN_DEFINITION,
     Criteria,
@@ -105,12 +105,7 @@ def _variables(
     statics: Statics, values: dict[str, np.ndarray], dimensions: tuple[str, ...]
 ) -> dict[str, tuple]:
     model = statics.problem.model
-    data = {
-        entry.name: variable(dimensions, values[entry.name], entry.unit, entry.meaning, entry.symbol)
-        for entry in model.STATE
-    }
-    for alias, name in stretch_alias(model).items():
-        data[alias] = data[name]
+    data = resting_variables(model, dimensions, [values[entry.name] for entry in model.STATE])
     for name, (unit, long_name, definition) in _measures(statics.electrical).items():
         data[name] = variable(dimensions, values[name], unit, long_name, definition=definition)
     for name, definition in _FLAGS.items():

@@ -7,7 +7,7 @@ from types import ModuleType
 
 import numpy as np
 
-from delagrange.analysis.rest.arguments import stretch_alias
+from delagrange.analysis.rest.arguments import resting_variables
 from delagrange.drives.inputs import ELECTRICAL, ElectricalInput, electrical_input
 from delagrange.equilibrium.vibration import STABILITY_MEANING, Spectrum
 from delagrange.run.run_dataset import variable
@@ -91,15 +91,8 @@ def _relaxation(spectra: Sequence[Spectrum], dimensions: tuple[str, ...], shape:
 def _equilibrium(
     model: ModuleType, spectra: Sequence[Spectrum], dimensions: tuple[str, ...], shape: tuple[int, ...]
 ) -> dict[str, tuple]:
-    states = np.array([spectrum.state for spectrum in spectra]).T
-    data = {
-        entry.name: variable(
-            dimensions, values.reshape(shape), entry.unit, f"{entry.meaning}, at rest", entry.symbol
-        )
-        for entry, values in zip(model.STATE, states)
-    }
-    for alias, name in stretch_alias(model).items():
-        data[alias] = data[name]
+    states = np.array([spectrum.state for spectrum in spectra]).T.reshape(-1, *shape)
+    data = resting_variables(model, dimensions, states, "at rest")
     statuses = np.array([spectrum.status for spectrum in spectra], dtype=object).reshape(shape)
     attributes = {
         "long_name": "stability of the equilibrium, or why there is none",

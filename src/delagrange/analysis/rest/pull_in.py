@@ -14,7 +14,7 @@ from delagrange.analysis.rest.arguments import (
     RELAXED_MEANING,
     Cases,
     make_cases,
-    stretch_alias,
+    resting_variables,
 )
 from delagrange.analysis.rest.criteria import (
     BREAKDOWN_DEFINITION,
@@ -226,11 +226,9 @@ def _variables(cases: Cases, found: list[tuple[Statics, Limit]]) -> dict[str, tu
         name: variable(dimensions, numbers(columns[name]), unit, long_name)
         for name, (unit, long_name) in _measures(electrical).items()
     }
-    for place, entry in enumerate(cases.model.STATE):
-        values = [_at(limit, lambda x, of=statics, at=place: of.state(x)[at]) for statics, limit in found]
-        data[entry.name] = variable(dimensions, numbers(values), entry.unit, entry.meaning, entry.symbol)
-    for alias, name in stretch_alias(cases.model).items():
-        data[alias] = data[name]
+    nowhere = np.full(len(cases.model.STATE), np.nan)
+    states = [nowhere if limit.point is None else statics.state(limit.point.x) for statics, limit in found]
+    data |= resting_variables(cases.model, dimensions, np.array(states).T.reshape(-1, *shape))
     texts = {
         "found": ([limit.status for limit in limits], "what ends the branch", {"meaning": _STATUS_MEANING}),
         "first_limit": (

@@ -14,7 +14,7 @@ from delagrange.analysis.steady.load import load_names
 from delagrange.analysis.steady.search import Search
 from delagrange.analysis.steady.shooting import Orbit
 from delagrange.drives.sines import LOAD_UNITS, sine_long_names
-from delagrange.run.run_dataset import variable
+from delagrange.run.run_dataset import coordinate_variables, state_variables, variable
 
 PERIODIC_AMPLITUDE = "half of peak to peak over one period of the periodic motion, without any transient"
 _CLOSURE = "distance between the state at the end of the period and at its begin, in units of typical sizes"
@@ -46,27 +46,18 @@ def _motion_variables(search: Search, orbits: list[Orbit], dimension: str, prefi
     for name in load_names(search.electrical):
         values = np.array([orbit.load[name] for orbit in orbits], dtype=float)
         data[prefix + name] = variable(dimension, values, LOAD_UNITS[name], long_names[name])
-    for what in ("amplitude", "maximum", "minimum"):
-        extrema = np.array([getattr(orbit, what) for orbit in orbits], dtype=float)
-        extrema = extrema.reshape(len(orbits), model.COORDINATE_COUNT)
-        more = {"definition": PERIODIC_AMPLITUDE} if what == "amplitude" else {}
-        for place, entry in enumerate(model.STATE[: model.COORDINATE_COUNT]):
-            name = f"{prefix}{entry.name}_{what}" if place else prefix + what
-            long_name = f"{what} of the {entry.meaning}"
-            data[name] = variable(dimension, extrema[:, place], entry.unit, long_name, entry.symbol, **more)
-    return data
+    measured = {
+        what: np.array([getattr(orbit, what) for orbit in orbits], dtype=float).reshape(-1, model.COORDINATE_COUNT).T
+        for what in ("amplitude", "maximum", "minimum")
+    }
+    about = {"amplitude": {"definition": PERIODIC_AMPLITUDE}}
+    return data | coordinate_variables(model, dimension, measured, about, prefix)
 
 
 def _state_variables(search: Search, orbits: list[Orbit]) -> dict[str, tuple]:
-    entries = search.shooting.path.problem.model.STATE
-    stem = search.electrical.stem
-    states = np.array([orbit.state for orbit in orbits]).reshape(len(orbits), len(entries))
-    data = {
-        entry.name: variable(
-            "point", states[:, place], entry.unit, f"{entry.meaning}, at phase 0 of the {stem}", entry.symbol
-        )
-        for place, entry in enumerate(entries)
-    }
+    model = search.shooting.path.problem.model
+    states = np.array([orbit.state for orbit in orbits]).reshape(-1, len(model.STATE)).T
+    data = state_variables(model, "point", states, f"at phase 0 of the {search.electrical.stem}")
     period = np.array([orbit.period for orbit in orbits], dtype=float)
     return data | {"period": variable("point", period, "s", "period of the motion", "T")}
 

@@ -26,7 +26,14 @@ from delagrange.problem.coordinate_size import typical_sizes
 from delagrange.problem.dashpots import FROZEN, RELAXED, given_state, is_damped
 from delagrange.problem.problem import Problem
 from delagrange.problem.status import COMPLETED, INTERRUPTED, Limits
-from delagrange.run.run_dataset import run_attributes, status_time_variable, status_variable, variable
+from delagrange.run.run_dataset import (
+    coordinate_variables,
+    run_attributes,
+    state_variables,
+    status_time_variable,
+    status_variable,
+    variable,
+)
 
 _LAST = "half of peak to peak over the last {measure} periods of the {stem} at each frequency, after {settle} to settle"
 
@@ -210,23 +217,11 @@ def _dwell(
 def _dataset(
     sweep: _Sweep, problem: Problem, frequencies: np.ndarray, found: _Found, attributes: dict[str, object]
 ) -> xr.Dataset:
-    model, data = problem.model, {}
-    amplitude = (found.maximum - found.minimum) / 2
-    values = {"amplitude": amplitude, "maximum": found.maximum, "minimum": found.minimum}
-    for place, entry in enumerate(model.STATE[: model.COORDINATE_COUNT]):
-        for what, numbers in values.items():
-            name, long_name = f"{entry.name}_{what}" if place else what, f"{what} of the {entry.meaning}"
-            data[name] = variable(
-                "frequency",
-                numbers[place],
-                entry.unit,
-                long_name,
-                entry.symbol,
-                definition=_definition(sweep),
-            )
-    for entry, numbers in zip(model.STATE, found.state):
-        long_name = f"{entry.meaning}, at the end of the step"
-        data[f"final_{entry.name}"] = variable("frequency", numbers, entry.unit, long_name, entry.symbol)
+    model, amplitude = problem.model, (found.maximum - found.minimum) / 2
+    measured = {"amplitude": amplitude, "maximum": found.maximum, "minimum": found.minimum}
+    about = {what: {"definition": _definition(sweep)} for what in measured}
+    data = coordinate_variables(model, "frequency", measured, about)
+    data |= state_variables(model, "frequency", found.state, "at the end of the step", "final_")
     data["status"] = status_variable("frequency", found.status)
     data["status_time"] = status_time_variable("frequency", found.status_time)
     long_name = sine_long_names(electrical_input(model))["frequency"]
