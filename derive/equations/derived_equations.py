@@ -83,7 +83,7 @@ def _static_balances(eom: EquationsOfMotion) -> dict[str, tuple[Quantity, sp.Exp
 
 
 def check_dimensions(equation: DerivedEquation) -> tuple[TermDimension, ...]:
-    """The dimension of every term of a derived equation.
+    """The dimension of every term of a derived equation; what stands in brackets is checked where it stands.
 
     Raises:
         DimensionError: a term has not the dimension of the others, or all of them not that of a
@@ -91,7 +91,7 @@ def check_dimensions(equation: DerivedEquation) -> tuple[TermDimension, ...]:
     """
     varied = equation.quantity.startswith(("equation_of_motion", "static_balance"))
     unit = "J" if varied else equation.unknown.unit
-    made = _Made(equation.quantity, sp.expand(equation.residual), Dimension.of_unit(unit))
+    made = _Made(equation.quantity, equation.residual, Dimension.of_unit(unit))
     return _check(equation.model, made, symbol_dimensions(equation.quantities))
 
 

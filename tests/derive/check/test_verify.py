@@ -172,6 +172,9 @@ def test_a_derived_term_with_another_unit_is_named(equations):
     bad = replace(good, residual=good.residual + s.FORCE.symbol)
     with pytest.raises(DimensionError, match="term P has dimension kg m s\\^-2"):
         check_dimensions(bad)
+    bracket = sp.Mul(good.residual, sp.Add(1, s.FORCE.symbol), evaluate=False)
+    with pytest.raises(DimensionError, match="P has dimension kg m s\\^-2"):
+        check_dimensions(replace(good, residual=bracket))
 
 
 def test_the_parts_of_every_model_have_their_units(equations):
