@@ -30,9 +30,10 @@ settings.load_profile("delagrange")
 HASH_SEED = "4711"
 LONGEST = (  # the first two compile other kernels than each other
     "test_emit_lanes.py", "test_guide.py", "test_charge_control.py", "test_each_pair.py", "test_compiled.py",
-    "test_locking.py", "test_examples.py", "test_emit.py", "test_benchmarks.py", "test_limits.py", "test_classify.py", "test_load.py",
-    "test_figures.py", "test_compiled_faults.py", "test_relation_statics.py", "test_cli_verify.py", "test_runs.py",
-    "test_leakage_engines.py", "test_flow.py", "test_steady_response.py", "test_pull_in.py",
+    "test_locking.py", "test_examples.py", "test_emit.py", "test_benchmarks.py", "test_limits.py",
+    "test_classify.py", "test_load.py", "test_figures.py", "test_compiled_faults.py", "test_relation_statics.py",
+    "test_cli_verify.py", "test_runs.py", "test_leakage_engines.py", "test_flow.py", "test_steady_response.py",
+    "test_pull_in.py",
 )  # fmt: skip
 
 
