@@ -15,7 +15,7 @@ from benchmarks.peer_delagrange import ABSOLUTE_SHARE
 from benchmarks.timing import timed
 from delagrange.engines.engines import resolve_numerics
 from delagrange.model.kernels import kernel_name, load_kernel
-from delagrange.problem.problem import Specimen
+from delagrange.problem.problem import make_specimen
 from delagrange.reproduction.runs.cases import Panel
 from delagrange.run.measures import Measures
 from delagrange.run.sweep import Sweep, make_settings, make_sweep, run_sweep
@@ -48,15 +48,15 @@ def _sweeps(case: Case) -> list[Sweep]:
 
 def _sweep(case: Case, panel: Panel) -> Sweep:
     """As `frequency_response` makes it; here the counts of steps are needed too."""
-    model = delagrange.load_model(case.model)
-    numerics = resolve_numerics("DOP853", "compiled", None, "dense", model)
+    specimen = make_specimen(case.model, None, None, delagrange.SHENG_2015)
+    numerics = resolve_numerics("DOP853", "compiled", None, "dense", specimen.model)
     limits = delagrange.Limits()
     settings = make_settings(case.duration, None, RTOL, RTOL * ABSOLUTE_SHARE, numerics, limits, threads=1)
     first = panel.loads[0]
     values = {"force": first.force, "field_amplitude": first.field_amplitude, "field_bias": 0.0}
     values |= {panel.varied: [getattr(load, panel.varied) for load in panel.loads]}
     values |= {"field_phase": 0.0, "held_stretch": None, "frequency": case.frequency}
-    return make_sweep(Specimen(model, delagrange.SHENG_2015), values, settings, "compiled", Measures())
+    return make_sweep(specimen, values, settings, "compiled", Measures())
 
 
 def _run_all(sweeps: list[Sweep]) -> np.ndarray:
