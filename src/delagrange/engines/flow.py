@@ -14,7 +14,6 @@ import numpy as np
 from delagrange.common import checks
 from delagrange.drives.drive import Constant, Drive, Sine, Step
 from delagrange.drives.inputs import input_name
-from delagrange.drives.phase import fraction_of_turns
 from delagrange.problem.problem import Problem
 from delagrange.problem.status import Limits
 
@@ -147,7 +146,7 @@ def _numbers(name: str, drive: Drive) -> tuple[float, float, float, float]:
 def drive_slope(numbers: np.ndarray, number: int, time: float) -> float:
     """Derivative of bias + amplitude sin(2 pi frequency t + phase) by one of the four, (4,) `numbers`."""
     _, amplitude, frequency, phase = numbers
-    argument = 2 * np.pi * fraction_of_turns(frequency, time) + phase
+    argument = 2 * np.pi * frequency * time + phase
     slopes = (
         1.0,
         np.sin(argument),
