@@ -267,11 +267,13 @@ def _model_without(*names: str) -> ModuleType:
     vars(module).update({name: value for name, value in vars(source).items() if not name.startswith("__")})
     module.MODEL = "unforced"
     module.INPUTS = tuple(entry for entry in source.INPUTS if entry.name not in names)
-    module.rhs = lambda state, inputs, parameters: source.rhs(state, (0.0, *inputs), parameters)
-    module.principal_stretches = lambda state, inputs, parameters: source.principal_stretches(
-        state, (0.0, *inputs), parameters
-    )
+    for name in ("rhs", "principal_stretches", "electrodes"):
+        setattr(module, name, _unforced(getattr(source, name)))
     return module
+
+
+def _unforced(function):
+    return lambda state, inputs, parameters: function(state, (0.0, *inputs), parameters)
 
 
 def test_a_force_where_the_model_has_none():

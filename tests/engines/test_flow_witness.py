@@ -50,9 +50,8 @@ def witness(problem, state):
 def test_the_tangent_is_that_of_heyoka(name, flowing):
     drives = {"force": FORCE, "field": dl.Sine(AMPLITUDE_OF_FIELD, FREQUENCY)}
     changes = {"relaxation_time": 2e-3}
-    problem = make_problem(
-        dl.load_model(name), dl.SHENG_2015, changes, MODELS[name].get("held_stretch"), **drives
-    )
+    held = MODELS[name].get("held_stretch")
+    problem = make_problem(dl.load_model(name), None, changes, held, drives["force"], drives["field"])
     problem = problem if flowing else frozen(problem)
     state = given_state(problem, None)
     size = len(state)

@@ -108,7 +108,8 @@ def test_a_sweep_of_the_current_by_command(leaky, tmp_path, capsys):
     assert xr.load_dataset(out)["amplitude"].shape == (2, 3)
 
 
-def test_what_rests_and_vibrates_under_a_current_by_command(leaky, tmp_path, capsys):
+def test_what_rests_and_vibrates_under_a_current_by_command(leaky, tmp_path, capsys, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "200")  # no heading is folded
     out, plot = tmp_path / "found.nc", tmp_path / "found.png"
     given_ = ["--input", f"{CURRENT}=0:0.4:0.2", "--out", str(out), "--plot", str(plot), "--quiet"]
     assert main(["equilibrium", leaky.__file__, *given_]) == 0
