@@ -13,8 +13,10 @@ from collections.abc import Iterable
 from functools import cache
 from hashlib import sha256
 from importlib import import_module, invalidate_caches
+from importlib.machinery import SourceFileLoader
+from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
-from types import ModuleType
+from types import CodeType, ModuleType
 
 _PACKAGE = "delagrange_user_"
 _DIGITS = 16
@@ -32,7 +34,7 @@ def import_model(path: Path, endings: tuple[str, ...]) -> ModuleType:
         kernels = [kernel for ending in endings if (kernel := _sibling(path, ending)).is_file()]
         _check_kernels(path, kernels)
         held = [str(path).encode(), *(file.read_bytes() for file in (path, *kernels))]
-        module = import_module(_registered(_package(*held), path))
+        module = _run(_registered(_package(*held), path), path)
         for ending in endings:
             beside(module, ending)  # those that are there now belong to it
         return module
@@ -114,11 +116,33 @@ def import_named(name: str) -> ModuleType:
         ImportError: the file has changed since it got the name, or as any import.
     """
     package, _, stem = name.rpartition(".")
-    if package.startswith(_PACKAGE) and name not in sys.modules:
-        path = Path(sys.modules[package].__path__[0]) / f"{stem}.py"
-        if not path.is_file() or _package(path.read_bytes()) != package:
-            raise ImportError(f"{path} has changed since its model was loaded; load the model anew")
-    return import_module(name)
+    if not package.startswith(_PACKAGE) or name in sys.modules:
+        return import_module(name)
+    path = Path(sys.modules[package].__path__[0]) / f"{stem}.py"
+    if not path.is_file() or _package(path.read_bytes()) != package:
+        raise ImportError(f"{path} has changed since its model was loaded; load the model anew")
+    return _run(name, path)
+
+
+class _AsItStands(SourceFileLoader):
+    """Runs the text that a file holds now: bytecode on disk knows it by size and second alone."""
+
+    def get_code(self, fullname: str) -> CodeType:
+        path = self.get_filename(fullname)
+        return self.source_to_code(self.get_data(path), path)
+
+
+def _run(name: str, path: Path) -> ModuleType:
+    """The module of a file, run once for each name."""
+    if name not in sys.modules:
+        spec = spec_from_file_location(name, path, loader=_AsItStands(name, str(path)))
+        module = sys.modules[name] = module_from_spec(spec)
+        try:
+            spec.loader.exec_module(module)
+        except BaseException:
+            del sys.modules[name]
+            raise
+    return sys.modules[name]
 
 
 def _package(*held: bytes) -> str:
