@@ -8,6 +8,7 @@ from types import ModuleType
 
 import sympy as sp
 
+from delagrange.derive.emit.c_header import emit_header
 from delagrange.derive.emit.numpy_module import emit
 from delagrange.derive.emit.variational_module import emit_variational
 from delagrange.derive.kernel.spec import KernelFunction, KernelSpec
@@ -69,7 +70,9 @@ def duffing() -> KernelSpec:
 
 
 def written(spec: KernelSpec, folder: Path) -> ModuleType:
-    """The emitted NumPy module, with its variational kernel beside it; `folder` must be on Python's path."""
-    (folder / f"{spec.name}.py").write_text(emit(spec), encoding="utf-8")
+    """The emitted NumPy module, with its header and kernel beside it; `folder` must be on Python's path."""
+    module = emit(spec)
+    (folder / f"{spec.name}.py").write_text(module, encoding="utf-8")
+    (folder / f"{spec.name}.h").write_text(emit_header(spec, module), encoding="utf-8")
     (folder / f"{spec.name}_variational.py").write_text(emit_variational(spec), encoding="utf-8")
     return import_module(spec.name)

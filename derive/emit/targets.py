@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from delagrange.derive.emit.c_header import HEADER
 from delagrange.derive.emit.lanes_module import LANES
 from delagrange.derive.emit.numpy_module import NUMPY_MODULE
 from delagrange.derive.emit.target import Target
@@ -9,7 +10,7 @@ from delagrange.derive.emit.variational_module import VARIATIONAL
 from delagrange.derive.kernel.spec import KernelSpec
 
 Modules = tuple[tuple[str, str], ...]  # file name, text
-TARGETS = (NUMPY_MODULE, LANES, VARIATIONAL)
+TARGETS = (NUMPY_MODULE, HEADER, LANES, VARIATIONAL)
 
 
 def emitted(spec: KernelSpec, targets: tuple[Target, ...] = TARGETS) -> Modules:
