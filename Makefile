@@ -5,7 +5,7 @@ OUT ?= out
 BIN := $(VENV)/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check install --quiet --constraint constraints.txt
 
-.PHONY: help reproduce test test-matrix derive check-generated figures bench lint clean
+.PHONY: help c-example reproduce test test-matrix derive check-generated figures bench lint clean
 
 help:
 	@echo "make reproduce        derive, check, emit, integrate, draw; the table of printed and computed numbers"
@@ -14,6 +14,7 @@ help:
 	@echo "make derive           derive the equations, check the printed ones, write generated/"
 	@echo "make check-generated  regenerate aside and compare byte for byte"
 	@echo "make figures          Figs. 4-12 as PNG and PDF with their data, in $(OUT)/figures"
+	@echo "make c-example        a run in C, without Python (examples/one_run.c)"
 	@echo "make bench            sweeps timed against other packages, in $(OUT)/bench (about ten minutes)"
 
 $(VENV)/.python:
@@ -45,6 +46,12 @@ bench: $(VENV)/.benched
 
 derive: $(VENV)/.installed
 	$(BIN)/python -m delagrange.derive
+
+c-example:
+	mkdir -p $(OUT)
+	$(CC) -std=c99 -O2 -ffp-contract=off -DDELAGRANGE_MODEL='"equal_biaxial.h"' -Igenerated -Isrc/delagrange/core/c \
+	  examples/one_run.c src/delagrange/core/c/trajectory.c -lm -o $(OUT)/one_run
+	$(OUT)/one_run
 
 check-generated: $(VENV)/.installed
 	$(BIN)/python -m delagrange.derive --check
