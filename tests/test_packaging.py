@@ -15,7 +15,7 @@ ROOMS = {
     "delagrange/generated": ROOT / "generated",
     "delagrange": ROOT / "src/delagrange",
 }
-SUFFIXES = {".py", ".jinja", ".json", ".typed"}
+SUFFIXES = {".py", ".jinja", ".json", ".typed", ".c", ".h"}
 
 
 def _tree() -> set[str]:
