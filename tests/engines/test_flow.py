@@ -473,7 +473,7 @@ def test_auto_is_compiled_where_there_is_a_kernel():
     problem = problem_of("equal_biaxial")
     assert resolve_flow(problem) is resolve_flow(problem, "compiled") is flow_compiled
     assert resolve_flow(problem, "scipy") is flow_by_scipy
-    with pytest.raises(ValueError, match="engine must be one of auto, compiled, scipy"):
+    with pytest.raises(ValueError, match="engine must be one of auto, compiled, core, scipy"):
         resolve_flow(problem, "fast")
 
 

@@ -247,10 +247,11 @@ _INTEGRATED = (
     Option("largest_stretch", "1", _NUMERICS, "A run is lost, diverged, where a stretch passes this pure number",
            {NUMBER: _RUNS}, default_text="100"),
     Option("engine", "NAME", _NUMERICS,
-           "compiled: all runs side by side, on all cores; numpy: the same on one, without compiling; scipy: one by "
-           "one (slow, a witness); auto: the fastest that can", {TEXT: "sweep"}, "auto"),
+           "compiled: all runs side by side, on all cores; core: the same by the integrator in C; numpy: on one, "
+           "without compiling; scipy: one by one (slow, a witness); auto: the fastest that can",
+           {TEXT: "sweep"}, "auto"),
     Option("threads", "COUNT", _NUMERICS,
-           "Threads of the compiled engine, at least 1; the result does not depend on it", {COUNT: "sweep"},
+           "Threads of the compiled engines, at least 1; the result does not depend on it", {COUNT: "sweep"},
            default_text="all cores"),
     Option("step_control", "NAME", _NUMERICS,
            "scipy, or ode45 for the controller of MATLAB's ode45 (with --method RK45); pi: of the compiled engine",

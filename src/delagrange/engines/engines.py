@@ -8,8 +8,10 @@ from dataclasses import dataclass
 from types import ModuleType
 
 from delagrange.common import checks
+from delagrange.core.kernel import NoCompiler, load_core
 from delagrange.drives.drive import Drive
 from delagrange.engines.compiled import integrate_compiled
+from delagrange.engines.core_engine import integrate_by_core
 from delagrange.engines.extrema import EXTREMA
 from delagrange.engines.kernel_drives import is_known
 from delagrange.engines.lanes import Outcome
@@ -35,6 +37,7 @@ class Engine:
 
 ENGINES: Mapping[str, Engine] = {
     "compiled": Engine(integrate_compiled, 1 << 16, ("DOP853",), ("pi",), ("dense",)),
+    "core": Engine(integrate_by_core, 1 << 16, ("DOP853",), ("pi",), ("dense",)),
     "numpy": Engine(integrate_lanes, 4096, METHODS, ("scipy", "ode45"), EXTREMA),
     "scipy": Engine(integrate_one_by_one, 4096, METHODS, ("scipy",), ("dense",)),
 }
@@ -90,8 +93,10 @@ def resolve_engine(
     Warns where compiled code would do and cannot run on this machine.
 
     Raises:
-        ValueError: the compiled engine is asked for by name and cannot run.
+        ValueError: a compiled engine is asked for by name and cannot run.
     """
+    if engine == "core" and (obstacle := _obstacle_to_the_core(model, drives)):
+        raise ValueError(f"engine 'core' cannot run this: {obstacle}; use 'numpy', or 'auto'")
     if engine not in (AUTO, "compiled"):
         return engine
     if engine == AUTO and not _suits(ENGINES["compiled"], method, control, extrema):
@@ -116,9 +121,34 @@ def _obstacle(model: ModuleType, drives: Sequence[object]) -> str | None:
     """What of the task itself a compiled kernel cannot do."""
     if kernel_name(model) is None:
         return f"no kernel stands beside the module of the model {model.MODEL}"
+    return _unknown_drive(drives)
+
+
+def _unknown_drive(drives: Sequence[object]) -> str | None:
     for drive in drives:
         if isinstance(drive, Drive) and not is_known(drive):
             return f"a drive is {drive}, which is not made of lines and sines"
+    return None
+
+
+def _obstacle_to_the_core(model: ModuleType, drives: Sequence[object]) -> str | None:
+    """Why the core in C does not run this, or not on this machine."""
+    return why_no_core(model, "lanes") or _unknown_drive(drives)
+
+
+def why_no_core(model: ModuleType, part: str) -> str | None:
+    """Why a part of the core in C cannot be had for a model; None where it can, and it then is compiled.
+
+    Raises:
+        ValueError: the header beside the module is not that of the module.
+    """
+    core = load_core(model)
+    if core is None:
+        return f"no header stands beside the module of the model {model.MODEL}"
+    try:
+        core.part(part)
+    except NoCompiler as error:
+        return str(error)
     return None
 
 

@@ -6,13 +6,15 @@ import warnings
 from types import ModuleType
 
 from delagrange.common import checks
+from delagrange.engines.core_flow import flow_by_core
+from delagrange.engines.engines import why_no_core
 from delagrange.engines.flow import Flow
 from delagrange.engines.flow_compiled import flow_compiled
 from delagrange.engines.flow_scipy import flow_by_scipy
 from delagrange.model.kernels import VARIATIONAL, kernel_name, load_kernel, why_not_compiled
 from delagrange.problem.problem import Problem
 
-FLOWS = ("auto", "compiled", "scipy")
+FLOWS = ("auto", "compiled", "core", "scipy")
 
 
 def resolve_flow(problem: Problem, engine: str = "auto") -> Flow:
@@ -22,12 +24,16 @@ def resolve_flow(problem: Problem, engine: str = "auto") -> Flow:
     compiled code cannot run on this machine.
 
     Raises:
-        ValueError: an unknown name, or the compiled flow is asked for by name and cannot run.
+        ValueError: an unknown name, or a compiled flow is asked for by name and cannot run.
     """
     checks.choice("engine", engine, FLOWS)
     if engine == "scipy":
         return flow_by_scipy
     model = problem.model
+    if engine == "core":
+        if reason := why_no_core(model, "tangents"):
+            raise ValueError(f"engine 'core' cannot run this: {reason}; use 'scipy', or 'auto'")
+        return flow_by_core
     missing = kernel_name(model, VARIATIONAL) is None
     broken = None if missing else _why_not_compiled(model)
     if not (missing or broken):

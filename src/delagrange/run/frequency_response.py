@@ -111,14 +111,15 @@ def frequency_response(
             side by side through NumPy, on one; "scipy" one by one through `solve_ivp`, slowly, as a witness;
             "auto" chooses the fastest that can do what is asked for, and warns where that is "numpy" because
             compiled code cannot run on this machine. The first use of a model on a machine compiles it,
-            which takes seconds.
+            which takes seconds. "core" does the same by the integrator in C and the header beside the module,
+            with the C compiler of the machine.
             Sweeps are explicit: for relaxation times far below a period of vibration use `simulate` with
             method "auto".
         step_control: "scipy", or "ode45" for the controller of MATLAB's `ode45` (with method "RK45"), both of
-            engine "numpy"; "pi" of engine "compiled"; left out, the engine's own.
+            engine "numpy"; "pi" of the compiled engines; left out, the engine's own.
         extrema: "dense" between steps, to the tolerance; "samples" at the quarters of each step, as
             `ode45` plots them; "steps" at the ends of steps.
-        threads: how many engine "compiled" may use, all cores if left out; the result does not depend on it.
+        threads: how many the compiled engines may use, all cores if left out; the result does not depend on it.
         rtol, atol, limits, formulation, lateral_dashpot, parameters, progress: as in `simulate`.
 
     Returns:

@@ -266,8 +266,8 @@ def make_settings(
 
 
 def _tableau(numerics: Numerics) -> Tableau | None:
-    """The pair of the method; a compiled kernel carries its own."""
-    if numerics.engine == "compiled":
+    """The pair of the method; compiled code carries its own."""
+    if numerics.engine in ("compiled", "core"):
         return None
     return tableau("RK45_MATLAB" if numerics.step_control == "ode45" else numerics.method)
 

@@ -420,7 +420,7 @@ BAD = [
     ({"relaxation_time": [1.0, 2.0]}, "relaxation_time must be a single number"),
     ({"stiffness": 1.0}, "unknown parameter 'stiffness'"),
     ({"held_stretch": 2.0}, "held_stretch 2 .* holds no stretch"),
-    ({"engine": "numpy"}, "engine must be one of auto, compiled, scipy"),
+    ({"engine": "numpy"}, "engine must be one of auto, compiled, core, scipy"),
 ]
 
 

@@ -72,7 +72,7 @@ def classify(
         dashpots: "frozen" where they stand at t = 0; "evolving" with the motion; or "relaxed": evolving, and
             the transient is waited for however long it is.
         tolerance: of the local error, in units of typical sizes of the state.
-        engine: "auto", "compiled" or "scipy".
+        engine: "auto", "compiled", "core" (the integrator in C) or "scipy".
         progress: show a progress bar on standard error.
 
     Returns:

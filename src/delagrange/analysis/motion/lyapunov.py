@@ -133,7 +133,7 @@ def lyapunov_spectrum(
         dashpots: "frozen" where they stand at t = 0 (their directions are then left out of the spectrum), or
             "evolving".
         tolerance: of the local error, in units of typical sizes of the state.
-        engine: "auto", "compiled" or "scipy".
+        engine: "auto", "compiled", "core" (the integrator in C) or "scipy".
         progress: show a progress bar on standard error.
 
     Returns:

@@ -99,7 +99,7 @@ def steady_response(
         most_branches: after so many the search ends.
         resolution: at least so many points over the range, and over a change of the state by its typical size.
         tolerance: of the flow, 1e-14 to 1e-6, in units of typical sizes of the state.
-        engine: "compiled", "scipy" (slow, a witness), or "auto" for the faster that can run.
+        engine: "compiled", "core" (in C), "scipy" (slow, a witness), or "auto" for the faster that can run.
         limits: stretches beyond which a motion counts as lost.
         model, held_stretch, formulation, lateral_dashpot, parameters, progress, material: as in `simulate`.
 
