@@ -75,8 +75,9 @@ VALUES = {
 @pytest.fixture(scope="module")
 def module():
     """The emitted NumPy module of the ring; its two kernels are emitted and compile as Python beside it."""
-    (name, text), *kernels = derive_description(RING)
-    assert name == "ring.py" and [each for each, _ in kernels] == ["ring_lanes.py", "ring_variational.py"]
+    (name, text), (header, _), *kernels = derive_description(RING)
+    assert (name, header) == ("ring.py", "ring.h")
+    assert [each for each, _ in kernels] == ["ring_lanes.py", "ring_variational.py"]
     for each, code in kernels:
         compile(code, each, "exec")
     made = ModuleType("ring")

@@ -316,7 +316,7 @@ def test_a_description_may_have_a_notation_of_its_own(rng):
 def test_a_module_carries_the_values_of_its_description(tmp_path):
     values = {"half_length": 0.05, "shear_modulus_alpha": 2e4}
     files = derive_description(plain(EQUAL_BIAXIAL, defaults=values, sources=("A book (1999)",)))
-    assert [name for name, _ in files] == ["own.py", "own_lanes.py", "own_variational.py"]
+    assert [name for name, _ in files] == ["own.py", "own.h", "own_lanes.py", "own_variational.py"]
     path = tmp_path / "own.py"
     path.write_text(files[0][1], encoding="utf-8")
     module = imported(path)

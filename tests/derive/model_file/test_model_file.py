@@ -409,6 +409,7 @@ def test_a_file_goes_the_whole_road(emitted):
 
     _, folder = emitted
     assert sorted(path.name for path in folder.iterdir()) == [
+        "small.h",
         "small.py",
         "small_lanes.py",
         "small_variational.py",
@@ -434,7 +435,7 @@ def test_the_same_file_gives_the_same_modules(emitted):
 
 def test_a_stale_module_is_named(emitted, tmp_path, capsys):
     path, folder = emitted
-    for each in folder.glob("*.py"):
+    for each in folder.glob("small*"):
         (tmp_path / each.name).write_bytes(each.read_bytes())
     (tmp_path / "small_lanes.py").write_text("", encoding="utf-8")
     assert main(["derive", str(path), "--out", str(tmp_path), "--check", "--quiet"]) == 1

@@ -55,7 +55,7 @@ def test_it_is_held_to_its_own_record(walked):
 
 def test_its_membrane_is_emitted_in_its_notation(walked):
     names = [name for name, _ in walked.modules]
-    assert names == ["letter_2020.py", "letter_2020_lanes.py", "letter_2020_variational.py"]
+    assert names == ["letter_2020.py", "letter_2020.h", "letter_2020_lanes.py", "letter_2020_variational.py"]
     text = walked.modules[0][1]
     assert f"Checked against the equations printed in {SECOND.citation}:" in text
     assert "    Eq. (2): differs\n" in text
@@ -83,7 +83,7 @@ def test_the_driver_walks_every_paper_that_it_finds(monkeypatch, tmp_path, capsy
     monkeypatch.setattr(pipeline, "papers", lambda: papers("more_papers"))
     assert driver.main(["--out", str(tmp_path)]) == 0
     assert sorted(path.name for path in tmp_path.iterdir()) == [
-        "letter_2020.py", "letter_2020_lanes.py", "letter_2020_variational.py",
+        "letter_2020.h", "letter_2020.py", "letter_2020_lanes.py", "letter_2020_variational.py",
     ]  # fmt: skip
     assert "1 equal, 1 differs" in capsys.readouterr().out
     assert driver.main(["--check", "--out", str(tmp_path)]) == 0
