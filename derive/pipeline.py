@@ -29,7 +29,7 @@ _LEAKAGE = "Foo et al. (2012), J. Appl. Phys. 111, 034102"
 
 
 def derive_description(description: Description) -> Modules:
-    """File name and text of the modules of a membrane: NumPy, lanes, variational kernel.
+    """File name and text of all that is emitted for a membrane, a file of each target.
 
     Raises:
         ValueError: the description is not whole, or at odds with itself or with what emitted code is written with.
