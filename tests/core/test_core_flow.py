@@ -125,7 +125,7 @@ def test_extrema_are_those_of_the_fine_motion():
     [
         (dl.Limits(smallest_stretch=1e-2), loss.COLLAPSED),
         (dl.Limits(largest_stretch=5.0), loss.DIVERGED),
-        (dl.Limits(1e-200, 1e200), getattr(loss, "UNRESOLVED", loss.DIVERGED)),
+        (dl.Limits(1e-200, 1e200), loss.DIVERGED),  # in a finite time, which no step resolves
     ],
 )
 @pytest.mark.parametrize("name", ["equal_biaxial", "uniaxial"])
@@ -139,7 +139,7 @@ def test_a_loss_is_a_status_with_its_time(name, limits, status):
     assert 1 < kept.sum() < len(times)
     assert np.all(np.isfinite(ours.state[kept])) and np.all(np.isnan(ours.state[~kept]))
     assert np.all(np.isfinite(ours.divergence[kept])) and np.all(np.isnan(ours.divergence[~kept]))
-    if status != getattr(loss, "UNRESOLVED", loss.DIVERGED) or limits.largest_stretch == 5.0:
+    if limits.largest_stretch < 1e200:
         np.testing.assert_allclose(ours.maximum, theirs.maximum, rtol=1e-7)
 
 

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from scipy.integrate import quad
 
 import delagrange as dl
-from delagrange.engines import compiled, engines
+from delagrange.engines import compiled, engines, threads
 from delagrange.engines.compiled import integrate_compiled
 from delagrange.engines.engines import Numerics
 from delagrange.engines.lanes import Sampling
@@ -214,8 +214,8 @@ def test_threads_order_and_company_change_no_bit(model, rng):
     force, field = lanes["force"], lanes["field"]
     whole = run("compiled", model, force, field, threads=1, **options)
     assert 0 < np.count_nonzero(whole.status) < count
-    for threads in (2, 3, 7, 400):
-        assert_same_bits(whole, run("compiled", model, force, field, threads=threads, **options))
+    for workers in (2, 3, 7, 400):
+        assert_same_bits(whole, run("compiled", model, force, field, threads=workers, **options))
     order = rng.permutation(count)
     assert_same_bits(whole, run("compiled", model, force[order], field.take(order), **options), order)
     for lane in (0, 31, 150, 299):
@@ -246,7 +246,7 @@ def test_chunks_and_parts_do_not_show(monkeypatch, samples):
     monkeypatch.setattr(engines, "ENGINES", {**engines.ENGINES, "compiled": small})
     xr.testing.assert_identical(dl.frequency_response("uniaxial", **sweep), whole)
     monkeypatch.setattr(compiled, "_DRIVE_NUMBERS", 50)
-    monkeypatch.setattr(compiled, "_parts", lambda lanes, workers, width: compiled._slices(lanes, 2))
+    monkeypatch.setattr(threads, "parts", lambda lanes, workers, width: threads.slices(lanes, 2))
     xr.testing.assert_identical(dl.frequency_response("uniaxial", **sweep), whole)
 
 

@@ -21,7 +21,7 @@ import xarray as xr
 
 import delagrange as dl
 from delagrange.drives.drive import Drive
-from delagrange.engines import compiled
+from delagrange.engines import threads
 from delagrange.engines.compiled import integrate_compiled
 from delagrange.engines.engines import Numerics
 from delagrange.engines.lanes import Interrupted
@@ -287,14 +287,14 @@ import signal, sys, time
 from delagrange.cli import main
 from delagrange.engines import compiled
 signal.signal(signal.SIGINT, signal.default_int_handler)  # ignored where these tests were started in the background
-run = compiled._run_on_threads
+run = compiled.run_on_threads
 def told(*given):
     print("running", flush=True)
     try:
         return run(*given)
     finally:
         print("ended", time.monotonic(), flush=True)
-compiled._run_on_threads = told
+compiled.run_on_threads = told
 sys.exit(main())
 """
 
@@ -345,7 +345,7 @@ def test_what_had_ended_before_an_interruption_is_whole(monkeypatch):
         if done > 200:
             raise KeyboardInterrupt
 
-    monkeypatch.setattr(compiled, "_LOOK", 1e-3)
+    monkeypatch.setattr(threads, "LOOK", 1e-3)
     with pytest.raises(Interrupted) as caught:
         integrate_compiled(problem, state, chosen, None, interrupt)
     part = caught.value.outcome

@@ -6,9 +6,6 @@ bit for bit, whatever runs are integrated beside it and on however many threads.
 
 from __future__ import annotations
 
-import os
-from collections.abc import Iterator
-from concurrent.futures import FIRST_EXCEPTION, ThreadPoolExecutor, wait
 from dataclasses import dataclass
 from types import ModuleType
 
@@ -18,11 +15,11 @@ from delagrange.engines.kernel_drives import piece_rows
 from delagrange.engines.lanes import Interrupted, Outcome, RunSettings, Sampling, empty_outcome
 from delagrange.engines.locking import name_failures
 from delagrange.engines.numpy_engine import Report, segments
+from delagrange.engines.threads import run_on_threads, shifted, slices
 from delagrange.model.kernels import kernel_name, load_kernel
 from delagrange.problem import status as loss
 from delagrange.problem.problem import Problem
 
-_LOOK = 0.05  # [s], how often progress is reported and the keyboard heard
 _DRIVE_NUMBERS = 1 << 22  # of the drives' pieces, in memory at a time
 
 
@@ -70,24 +67,17 @@ def integrate_compiled(
     lanes = initial_state.shape[1]
     count = 0 if sampling is None else sampling.count
     outcome = empty_outcome(initial_state, problem.model.COORDINATE_COUNT, loss.INTERRUPTED, count)
-    for part in _slices(lanes, max(1, _DRIVE_NUMBERS // (5 * len(problem.drives) * len(spans)))):
+    for part in slices(lanes, max(1, _DRIVE_NUMBERS // (5 * len(problem.drives) * len(spans)))):
         some = None if sampling is None else sampling.take(part)
         call = _call(kernel, problem.take(part), initial_state[:, part], settings, some, spans)
         try:
-            _run_on_threads(call, settings.threads, _shifted(report, part.start))
+            told = shifted(report, part.start)
+            run_on_threads(call.run, call.table.shape[1], kernel.LANES, call.stop, settings.threads, told)
         except KeyboardInterrupt as interruption:
             outcome.place_into(part, _outcome(call))
             raise Interrupted(name_failures(outcome, problem, settings.limits)) from interruption
         outcome.place_into(part, _outcome(call))
     return name_failures(outcome, problem, settings.limits)
-
-
-def _slices(size: int, length: int) -> Iterator[slice]:
-    return (slice(start, min(start + length, size)) for start in range(0, size, length))
-
-
-def _shifted(report: Report | None, done: int) -> Report | None:
-    return None if report is None else lambda more: report(done + more)
 
 
 def _call(
@@ -143,45 +133,6 @@ def _empty_results(kernel: ModuleType, lanes: int) -> np.ndarray:
     results[kernel.MINIMUM : kernel.MINIMUM + kernel.COORDINATE_COUNT] = np.inf
     results[kernel.STATUS] = kernel.INTERRUPTED
     return results
-
-
-def _run_on_threads(call: Call, threads: int | None, report: Report | None) -> None:
-    """Integrate all lanes, part by part, on as many threads as are wanted and there are cores."""
-    lanes = call.table.shape[1]
-    workers = _cores() if threads is None else threads
-    parts = list(_parts(lanes, workers, call.kernel.LANES))
-    progress = np.zeros((len(parts), 1))
-    with ThreadPoolExecutor(workers) as pool:
-        waiting = {
-            pool.submit(call.run, part.start, part.stop, progress[number])
-            for number, part in enumerate(parts)
-        }
-        try:
-            while waiting:
-                done, waiting = wait(waiting, timeout=_LOOK, return_when=FIRST_EXCEPTION)
-                for future in done:
-                    future.result()
-                if report is not None:
-                    report(float(np.sum(progress)))
-        except BaseException:
-            call.stop[0] = 1
-            pool.shutdown(wait=True, cancel_futures=True)
-            raise
-
-
-def _cores() -> int:
-    """Cores that this process may use."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-
-
-def _parts(lanes: int, workers: int, width: int) -> Iterator[slice]:
-    """Parts in whole widths of the kernel: large ones first, small ones last, so that all threads end together."""
-    start = 0
-    while start < lanes:
-        share = lanes - start if workers == 1 else -(-(lanes - start) // (2 * workers))
-        stop = min(start + -(-share // width) * width, lanes)
-        yield slice(start, stop)
-        start = stop
 
 
 def _outcome(call: Call) -> Outcome:

@@ -6,10 +6,6 @@ integrated beside it and on however many threads.
 
 from __future__ import annotations
 
-import os
-from collections.abc import Iterator
-from concurrent.futures import FIRST_EXCEPTION, ThreadPoolExecutor, wait
-
 import numpy as np
 
 from delagrange.core.kernel import Core, RunsCall, load_core
@@ -17,10 +13,10 @@ from delagrange.core.structures import UNRESOLVED
 from delagrange.engines.core_drives import piece_rows
 from delagrange.engines.lanes import Interrupted, Outcome, RunSettings, Sampling, empty_outcome
 from delagrange.engines.numpy_engine import Report, segments
+from delagrange.engines.threads import run_on_threads, shifted, slices
 from delagrange.problem import status as loss
 from delagrange.problem.problem import Problem
 
-_LOOK = 0.05  # [s], how often progress is reported and the keyboard heard
 _DRIVE_NUMBERS = 1 << 22  # of the drives' pieces, in memory at a time
 
 
@@ -44,26 +40,19 @@ def integrate_by_core(
     count = 0 if sampling is None else sampling.count
     coordinates, lanes = problem.model.COORDINATE_COUNT, initial_state.shape[1]
     outcome = empty_outcome(initial_state, coordinates, loss.INTERRUPTED, count)
-    for part in _slices(lanes, max(1, _DRIVE_NUMBERS // (5 * max(1, len(problem.drives)) * len(spans)))):
+    for part in slices(lanes, max(1, _DRIVE_NUMBERS // (5 * max(1, len(problem.drives)) * len(spans)))):
         some = None if sampling is None else sampling.take(part)
         found = empty_outcome(initial_state[:, part], coordinates, loss.INTERRUPTED, count)
         stop = np.zeros(1, dtype=np.int8)
         call = _call(core, problem.take(part), initial_state[:, part], settings, some, spans, found, stop)
         try:
-            _run_on_threads(call, settings.threads, stop, _shifted(report, part.start))
+            told = shifted(report, part.start)
+            run_on_threads(call.integrate, call.job.runs, call.lanes, stop, settings.threads, told)
         except KeyboardInterrupt as interruption:
             outcome.place_into(part, _finished(found))
             raise Interrupted(outcome) from interruption
         outcome.place_into(part, _finished(found))
     return outcome
-
-
-def _slices(size: int, length: int) -> Iterator[slice]:
-    return (slice(start, min(start + length, size)) for start in range(0, size, length))
-
-
-def _shifted(report: Report | None, done: int) -> Report | None:
-    return None if report is None else lambda more: report(done + more)
 
 
 def _call(
@@ -118,45 +107,6 @@ def parameter_rows(problem: Problem) -> np.ndarray:
     return rows
 
 
-def _run_on_threads(call: RunsCall, threads: int | None, stop: np.ndarray, report: Report | None) -> None:
-    """Integrate all lanes, part by part, on as many threads as are wanted and there are cores."""
-    lanes = call.job.runs
-    workers = cores() if threads is None else threads
-    parts = list(_parts(lanes, workers, call.lanes))
-    progress = np.zeros((len(parts), 1))
-    with ThreadPoolExecutor(workers) as pool:
-        waiting = {
-            pool.submit(call.integrate, part.start, part.stop, progress[number])
-            for number, part in enumerate(parts)
-        }
-        try:
-            while waiting:
-                done, waiting = wait(waiting, timeout=_LOOK, return_when=FIRST_EXCEPTION)
-                for future in done:
-                    future.result()
-                if report is not None:
-                    report(float(np.sum(progress)))
-        except BaseException:
-            stop[0] = 1
-            pool.shutdown(wait=True, cancel_futures=True)
-            raise
-
-
-def cores() -> int:
-    """Cores that this process may use."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-
-
-def _parts(lanes: int, workers: int, width: int) -> Iterator[slice]:
-    """Parts in whole widths of the core: large ones first, small ones last, so that all threads end together."""
-    start = 0
-    while start < lanes:
-        share = lanes - start if workers == 1 else -(-(lanes - start) // (2 * workers))
-        stop = min(start + -(-share // width) * width, lanes)
-        yield slice(start, stop)
-        start = stop
-
-
 def _finished(found: Outcome) -> Outcome:
     """What the core has written, with nothing of lanes that had not ended."""
     unfinished = found.status == loss.INTERRUPTED
@@ -169,5 +119,5 @@ def _finished(found: Outcome) -> Outcome:
 
 
 def known_status(status: np.ndarray) -> np.ndarray:
-    """Statuses of the core as `delagrange.problem.status` counts them."""
-    return np.where(np.equal(status, UNRESOLVED), getattr(loss, "UNRESOLVED", loss.DIVERGED), status)
+    """Statuses of the core as `delagrange.problem.status` counts them, where what no step resolves has diverged."""
+    return np.where(np.equal(status, UNRESOLVED), loss.DIVERGED, status)
